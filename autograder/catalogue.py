@@ -1,0 +1,158 @@
+"""Finds exercises: in an assignment folder, in a course folder, or in the set that is shipped with the package.
+
+This is the only place that imports an assignment.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+
+from autograder.errors import CourseError, ExerciseError
+from autograder.exercise import Exercise
+
+SLUG = re.compile(r"(?P<number>\d\d)-(?P<slug>[a-z0-9][a-z0-9-]*)")
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """A folder ``NN-slug`` with its exercises and, where it has one, its notebook source."""
+
+    folder: Path
+    exercises: dict[str, Exercise]
+
+    @property
+    def name(self) -> str:
+        """What nbgrader calls it: ``A1`` for the folder ``01-known-forms``."""
+        return f"A{int(self.folder.name[:2])}"
+
+    @property
+    def slug(self) -> str:
+        """``known-forms``; also the name of its notebook."""
+        return self.folder.name[3:]
+
+    @property
+    def source(self) -> Path:
+        """The notebook as text (py:percent)."""
+        return self.folder / "notebook.py"
+
+    @property
+    def points(self) -> float:
+        """Points of all its exercises."""
+        return sum(exercise.points for exercise in self.exercises.values())
+
+
+@dataclass(frozen=True)
+class Catalogue:
+    """Assignments in the order of their numbers. Exercise ids are unique in it."""
+
+    assignments: tuple[Assignment, ...]
+
+    def __iter__(self) -> Iterator[Exercise]:
+        for assignment in self.assignments:
+            yield from assignment.exercises.values()
+
+    def get(self, id: str) -> Exercise | None:
+        """The exercise of that id, or None."""
+        return next((assignment.exercises[id] for assignment in self.assignments if id in assignment.exercises), None)
+
+    def find(self, id: str) -> Exercise:
+        """The exercise of that id.
+
+        Raises
+        ------
+        ExerciseError
+            If there is none; the message names those there are.
+        """
+        found = self.get(id)
+        if found is None:
+            raise ExerciseError(f"no exercise is called {id!r}; there are: {', '.join(exercise.id for exercise in self)}")
+        return found
+
+    def assignment(self, name: str) -> Assignment:
+        """The assignment called ``A1``, ``01-known-forms`` or ``known-forms``."""
+        for assignment in self.assignments:
+            if name in (assignment.name, assignment.slug, assignment.folder.name):
+                return assignment
+        raise CourseError(f"no assignment is called {name!r}; there are: {', '.join(a.name for a in self.assignments)}")
+
+
+@functools.cache
+def shipped() -> Catalogue:
+    """The assignments that come with the package, in a checkout and in an installed wheel alike."""
+    return load(shipped_room("assignments"))
+
+
+def shipped_room(room: str) -> Path:
+    """The folder ``assignments`` or ``course`` of this installation."""
+    here = Path(__file__).resolve().parent
+    for place in (here / "shipped" / room, here.parent / room):
+        if place.is_dir():
+            return place
+    raise CourseError(f"the folder {room!r} is missing from this installation; install directrix again")
+
+
+def load(folder: Path | str) -> Catalogue:
+    """Exercises of an assignment folder, of a course folder (its ``assignments/``), or of a folder of assignments.
+
+    Raises
+    ------
+    CourseError
+        If there is no such folder, it holds no ``exercises.py``, or two assignments claim one exercise id.
+    """
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise CourseError(f"no such folder: {folder}")
+    for room in ([folder], sorted(folder.iterdir()), sorted(folder.glob("assignments/*"))):
+        found = [place for place in room if SLUG.fullmatch(place.name) and _entry(place) is not None]
+        if found:
+            break
+    else:
+        raise CourseError(f"no assignment in {folder}: wanted NN-slug/exercises.py, here or in {folder / 'assignments'}")
+    assignments = tuple(load_assignment(place) for place in found)
+    seen: dict[str, Assignment] = {}
+    for assignment in assignments:
+        for id in assignment.exercises:
+            if id in seen:
+                raise CourseError(f"exercise {id!r} is in {seen[id].folder.name} and in {assignment.folder.name}; rename one")
+            seen[id] = assignment
+    return Catalogue(assignments)
+
+
+def load_assignment(folder: Path) -> Assignment:
+    """Import ``exercises.py`` (or the package ``exercises/``) of one assignment folder and gather its exercises in order."""
+    entry = _entry(folder)
+    if entry is None:
+        raise CourseError(f"{folder} has no exercises.py")
+    module = _import(entry, f"directrix_assignments_{re.sub('[^a-z0-9]', '_', str(folder.resolve()))}")
+    exercises = {value.id: value for value in vars(module).values() if isinstance(value, Exercise)}
+    if not exercises:
+        raise CourseError(f"{entry} declares no exercise; decorate a function with @exercise(...)")
+    return Assignment(folder, exercises)
+
+
+def _entry(folder: Path) -> Path | None:
+    return next((path for path in (folder / "exercises.py", folder / "exercises" / "__init__.py") if path.is_file()), None)
+
+
+def _import(entry: Path, name: str) -> ModuleType:
+    if name in sys.modules:
+        return sys.modules[name]
+    package = [str(entry.parent)] if entry.name == "__init__.py" else None
+    spec = importlib.util.spec_from_file_location(name, entry, submodule_search_locations=package)
+    if spec is None or spec.loader is None:
+        raise CourseError(f"{entry} cannot be imported")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module

@@ -1,0 +1,256 @@
+"""An exercise: one function to write, its reference, its data and its known mistakes, declared by decorators.
+
+    @exercise(points=6, title="Linear sweep by direction and distance", kind="surface")
+    def linear_sweep(u, w, curve, direction, d):
+        \"\"\"Sweep the generatrix the distance d along the direction.\"\"\"
+        return dx.LinearSweep(curve, direction, d)(u, w)
+
+    @linear_sweep.data
+    def arcs(rng):
+        return dict(curve=..., direction=..., d=...)
+
+    @linear_sweep.mistake("not_normalised", credit=0.5)
+    def _(u, w, curve, direction, d):
+        \"\"\"You multiplied by the direction as given: divide by its length first.\"\"\"
+        return ...
+
+Its id is the name of the function. The leading arguments of a surface (u, w), curve (u), solid (u, v, w) and mask (u, w)
+are parameters that the judge chooses; all other arguments come from the data sets, by name.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from autograder.curvedata import CurveData, as_curve
+from autograder.errors import ExerciseError
+from autograder.result import LADDER, Tier
+
+Kind = Literal["surface", "curve", "solid", "basis", "net", "value", "mask", "label"]
+PARAMETERS: dict[str, tuple[str, ...]] = {"surface": ("u", "w"), "curve": ("u",), "solid": ("u", "v", "w"), "mask": ("u", "w")}
+PUBLIC_SEED = 0
+TOLERANCE = 1e-9
+# What an answer below "identical" earns unless the exercise says otherwise. A surface that is right but for its labels or its
+# seam shows that the form is understood; a surface that is merely near or elsewhere shows less.
+TIER_CREDIT: dict[Tier, float] = {"relabelled": 0.5, "other start": 0.5, "close": 0.8}
+SHAPE_CREDIT = 0.5
+
+
+@dataclass(frozen=True)
+class DataSet:
+    """One named set of arguments. ``blind`` data are known to hide mistakes: shown as a trap, never decisive alone."""
+
+    name: str
+    draw: Callable[[np.random.Generator], Any]
+    blind: bool = False
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A data set with its arguments: values by name, arrays read-only, callables already as :class:`CurveData`."""
+
+    name: str
+    arguments: Mapping[str, Any]
+    blind: bool = False
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A known wrong formula, runnable, with the hint that a learner reads. ``credit`` None: the credit of its tier."""
+
+    id: str
+    formula: Callable[..., Any]
+    hint: str
+    credit: float | None = None
+
+
+@dataclass(eq=False)
+class Exercise:
+    """One function to write. Made by :func:`exercise`; calling it calls the reference."""
+
+    id: str
+    reference: Callable[..., Any]
+    points: float
+    title: str
+    kind: Kind
+    statement: str
+    arguments: tuple[str, ...]
+    defaults: Mapping[str, Any]
+    accept: Mapping[Tier, float]
+    tolerance: float = TOLERANCE
+    judged_as: Callable[..., Any] | None = None
+    allow: tuple[str, ...] = ()
+    shape_credit: float = SHAPE_CREDIT
+    data_sets: list[DataSet] = field(default_factory=list)
+    mistakes: list[Mistake] = field(default_factory=list)
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        """The reference's answer."""
+        return self.reference(*args, **kwargs)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the leading arguments that the judge samples: ('u', 'w') for a surface, () for a value."""
+        return PARAMETERS.get(self.kind, ())
+
+    @property
+    def signature(self) -> str:
+        """The line a learner writes: ``cylinder(u, w, r, h)``."""
+        shown = [f"{name}={_readable(self.defaults[name])}" if name in self.defaults else name for name in self.arguments]
+        return f"{self.id}({', '.join(shown)})"
+
+    def data(self, draw: Callable[..., Any] | None = None, *, blind: bool = False) -> Any:
+        """Register a data set: a function of ``rng`` that returns the arguments, as a dict or in order as a tuple."""
+
+        def register(function: Callable[..., Any]) -> Callable[..., Any]:
+            if any(known.name == function.__name__ for known in self.data_sets):
+                raise ExerciseError(f"{self.id}: a data set named {function.__name__!r} exists already; choose another name")
+            self.data_sets.append(DataSet(function.__name__, function, blind))
+            return function
+
+        return register if draw is None else register(draw)
+
+    def mistake(self, id: str, *, credit: float | None = None) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+        """Register a known wrong formula under ``id``. Its docstring is the hint."""
+
+        def register(function: Callable[..., Any]) -> Callable[..., Any]:
+            hint = inspect.getdoc(function)
+            if not hint:
+                raise ExerciseError(f"{self.id}: mistake {id!r} needs a docstring, which is the hint a learner reads")
+            if any(known.id == id for known in self.mistakes):
+                raise ExerciseError(f"{self.id}: mistake {id!r} is there twice; choose another name")
+            if credit is not None and not 0 <= credit < 1:
+                raise ExerciseError(f"{self.id}: the credit of mistake {id!r} must lie in [0, 1); got {credit!r}")
+            names = tuple(inspect.signature(function).parameters)
+            if names != self.arguments:
+                raise ExerciseError(
+                    f"{self.id}: mistake {id!r} must take {self.arguments}, as the reference does; it takes {names}"
+                )
+            self.mistakes.append(Mistake(id, function, " ".join(hint.split()), credit))
+            return function
+
+        return register
+
+    def draw(self, seed: int | str | bytes = PUBLIC_SEED) -> list[Drawn]:
+        """All data sets under one seed. The same seed gives the same data, on every machine."""
+        return [Drawn(known.name, self._arguments_of(known, seed), known.blind) for known in self.data_sets]
+
+    def _arguments_of(self, known: DataSet, seed: int | str | bytes) -> dict[str, Any]:
+        drawn = known.draw(generator(seed, self.id, known.name))
+        wanted = self.arguments[len(self.parameters) :]
+        if isinstance(drawn, tuple):
+            drawn = dict(zip(wanted, drawn, strict=False))
+        if not isinstance(drawn, Mapping):
+            raise ExerciseError(
+                f"{self.id}: data set {known.name!r} must return a dict of arguments; got {type(drawn).__name__}"
+            )
+        missing = [name for name in wanted if name not in drawn and name not in self.defaults]
+        unknown = [name for name in drawn if name not in wanted]
+        if missing or unknown:
+            raise ExerciseError(
+                f"{self.id}: data set {known.name!r} must give {', '.join(wanted) or 'nothing'}; "
+                f"missing {missing or 'none'}, unknown {unknown or 'none'}"
+            )
+        return {name: _frozen(drawn[name] if name in drawn else self.defaults[name]) for name in wanted}
+
+    def tier_credit(self, tier: Tier) -> float:
+        """The share of the points that an answer of this tier earns here."""
+        if tier == "identical":
+            return 1.0
+        return self.accept.get(tier, TIER_CREDIT.get(tier, 0.0) if self.parameters else 0.0)
+
+
+def exercise(
+    *,
+    points: float,
+    title: str,
+    kind: Kind,
+    accept: Mapping[Tier, float] | None = None,
+    tolerance: float = TOLERANCE,
+    judged_as: Callable[..., Any] | None = None,
+    allow: Sequence[str] = (),
+    shape_credit: float = SHAPE_CREDIT,
+) -> Callable[[Callable[..., Any]], Exercise]:
+    """Turn a reference function into an :class:`Exercise`.
+
+    Parameters
+    ----------
+    points : float
+        Points of its graded cell, above 0.
+    title : str
+        What a card and a table call it.
+    kind : {"surface", "curve", "solid", "basis", "net", "value", "mask", "label"}
+        What the function answers, which decides how answers are compared.
+    accept : mapping of tier to credit in [0, 1], optional
+        Tiers below "identical" that earn credit here, over the defaults of ``TIER_CREDIT``.
+    tolerance : float
+        What "identical" allows, relative to the size of the reference.
+    judged_as : callable, optional
+        Turns an answer (a net with weights, say) into the surface that is compared: ``judged_as(answer)(u, w)``.
+    allow : sequence of str
+        Packages beyond numpy and plotly that learners may import, ``("scipy",)``.
+    shape_credit : float
+        The share kept by a function that is right for some shapes of input but not for others.
+
+    Raises
+    ------
+    ExerciseError
+        Where the declaration breaks one of the rules above.
+    """
+
+    def declare(reference: Callable[..., Any]) -> Exercise:
+        name = reference.__name__
+        statement = inspect.getdoc(reference)
+        if not statement:
+            raise ExerciseError(f"{name}: the reference needs a docstring, which is the statement a learner reads")
+        if kind not in get_args(Kind):
+            raise ExerciseError(f"{name}: kind must be one of {', '.join(get_args(Kind))}; got {kind!r}")
+        if not points > 0:
+            raise ExerciseError(f"{name}: points must be above 0; got {points!r}")
+        given = inspect.signature(reference).parameters
+        arguments = tuple(given)
+        leading = PARAMETERS.get(kind, ())
+        if arguments[: len(leading)] != leading:
+            raise ExerciseError(f"{name}: a {kind} takes {', '.join(leading)} first; got {', '.join(arguments)}")
+        for tier, credit in (accept or {}).items():
+            if tier not in LADDER or not 0 <= credit <= 1:
+                raise ExerciseError(f"{name}: accept maps tiers of the ladder to credit in [0, 1]; got {tier!r}: {credit!r}")
+        defaults = {key: value.default for key, value in given.items() if value.default is not value.empty}
+        return Exercise(
+            id=name, reference=reference, points=float(points), title=title, kind=kind, statement=statement,
+            arguments=arguments, defaults=defaults, accept=dict(accept or {}), tolerance=tolerance, judged_as=judged_as,
+            allow=tuple(allow), shape_credit=shape_credit,
+        )  # fmt: skip
+
+    return declare
+
+
+def generator(seed: int | str | bytes, *names: str) -> np.random.Generator:
+    """A random generator that depends on the seed and the names, and on nothing else."""
+    key = seed if isinstance(seed, bytes) else str(seed).encode()
+    digest = hashlib.sha256(b"\x00".join([key, *(name.encode() for name in names)])).digest()
+    return np.random.default_rng(int.from_bytes(digest, "big"))
+
+
+def _frozen(value: Any) -> Any:
+    if isinstance(value, CurveData | str | bool | int | float | None):
+        return value
+    if callable(value):
+        return as_curve(value)
+    if isinstance(value, list | tuple) and any(callable(item) for item in value):
+        return tuple(_frozen(item) for item in value)
+    array = np.array(value)
+    array.flags.writeable = False
+    return array
+
+
+def _readable(value: Any) -> str:
+    if isinstance(value, float) and value and (value / np.pi).is_integer():
+        return f"{int(value / np.pi)}*np.pi".removeprefix("1*")
+    return repr(value)
