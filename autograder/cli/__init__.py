@@ -1,0 +1,43 @@
+"""The command line: ``directrix VERB``. Exit code 0 done, 1 something failed and was named, 2 wrong usage."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import typer
+
+from autograder.cli import course, grading, machine
+from autograder.errors import DirectrixError
+
+app = typer.Typer(
+    name="directrix",
+    help="Learn surface modelling by writing the surfaces. Start with: directrix demo",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+)
+app.command()(course.demo)
+app.command()(course.new)
+app.command()(course.release)
+app.command()(course.lab)
+app.command()(grading.check)
+app.command()(grading.grade)
+app.command()(grading.feedback)
+app.command()(machine.doctor)
+
+
+def main() -> None:
+    """Run the command line; an error made on purpose is one plain line, not a traceback."""
+    try:
+        app()
+    except DirectrixError as error:
+        print(f"directrix: {error}", file=sys.stderr)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        print("directrix: stopped; what was finished is kept", file=sys.stderr)
+        sys.exit(130)
+    except BrokenPipeError:  # the reader of our output has gone, as in `directrix doctor | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)

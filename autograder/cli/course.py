@@ -1,0 +1,130 @@
+"""``directrix demo``, ``new``, ``release`` and ``lab``: making courses and opening them."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+from autograder import authoring
+from autograder.cli.options import AsJson, CourseOption, console_for
+from autograder.errors import CourseError
+
+
+def new(
+    course: Annotated[Path, typer.Argument(help="The new folder.")],
+    assignment: Annotated[list[str] | None, typer.Option(help="Only these assignments (A1, A2, ...); may be repeated.")] = None,
+) -> None:
+    """Make an nbgrader course with the shipped assignments.
+
+    Example: directrix new surfaces-2027
+    """
+    made = authoring.new_course(course, tuple(assignment or ()))
+    console = Console()
+    console.print(f"{course}: {', '.join(f'{a.name} {a.slug} ({a.points:g} points)' for a in made)}", highlight=False)
+    console.print(f"Next: directrix release {made[0].name} --course {course}", highlight=False)
+
+
+def release(
+    assignment: Annotated[str, typer.Argument(help="Assignment in source/, for example A1.")],
+    course: CourseOption = Path(),
+) -> None:
+    """Make the learners' version of an assignment: release/A1, with stubs for solutions.
+
+    Example: directrix release A1
+    """
+    made = authoring.release(course, assignment)
+    Console().print(f"{made}: hand it out, or put it on the exchange with nbgrader release_assignment", highlight=False)
+
+
+def lab(
+    folder: Annotated[Path, typer.Argument(help="A course, or a folder for your own workbook.")] = Path("directrix-workbook"),
+    browser: Annotated[bool, typer.Option(help="Open a browser window.")] = True,
+    port: Annotated[int, typer.Option(help="Port of the local server.")] = 8888,
+) -> None:
+    """Open JupyterLab: on a course (with formgrader), or on a workbook with all notebooks and walkthroughs.
+
+    Example: directrix lab
+    """
+    if not (folder / "nbgrader_config.py").is_file():
+        written = authoring.workbook(folder)
+        kept = "your own work is kept" if not written else f"{len(written)} notebooks added, what was there is kept"
+        Console().print(f"{folder}: {kept}", highlight=False)
+    os.chdir(folder)
+    options = ["--ServerApp.root_dir=.", f"--ServerApp.port={port}", *([] if browser else ["--no-browser"])]
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        options.append("--allow-root")
+    sys.stdout.flush()
+    os.execv(sys.executable, [sys.executable, "-m", "jupyterlab", *options])
+
+
+def demo(
+    directory: Annotated[Path, typer.Option("--dir", help="Where the demo course goes.")] = Path("directrix-demo"),
+    assignment: Annotated[list[str] | None, typer.Option(help="Only these assignments; may be repeated.")] = None,
+    level: Annotated[str, typer.Option(help="Isolation level to require.")] = "A",
+    again: Annotated[bool, typer.Option("--again", help="Replace an earlier demo in that folder.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Run the main job from one end to the other: release, submit a sample class, grade it in the sandbox, give feedback.
+
+    Example: directrix demo --dir demo
+    """
+    from autograder import demo as cohorts
+    from autograder import feedback, fleet, report  # the slow half of the package, needed from here on
+
+    console = console_for(as_json)
+    if again and directory.exists():
+        authoring.remove_course(directory)
+    console.rule("a course, its released notebooks, and a sample class")
+    assignments = authoring.new_course(directory, tuple(assignment or ()))
+    course = fleet.Course(directory)
+    summary: dict[str, Any] = {}
+    problems = 0
+    for made in assignments:
+        released = authoring.release(directory, made.name) / f"{made.slug}.ipynb"
+        members = cohorts.submit(released, course, made.name)
+        console.print(f"{made.name} {made.slug}: released, {len(members)} submissions", highlight=False)
+    for made in assignments:
+        console.rule(f"grading {made.name} in the sandbox")
+        graded = grade_with_progress(console, course, made.name, level=level)
+        pages = feedback.write(course, made.name)
+        console.print(report.table(graded))
+        surprises = cohorts.surprises(made.name, graded)
+        problems += len(surprises) + len(graded.failures)
+        for surprise in surprises:
+            console.print(f"[bold red]not as expected:[/] {surprise}")
+        summary[made.name] = {**graded.to_dict(), "feedback": len(pages), "surprises": surprises}
+    if as_json:
+        print(json.dumps(summary, allow_nan=False))
+    console.rule("where everything lies")
+    for what, place in [
+        ("gradebook, read by nbgrader too", directory / "gradebook.db"),
+        ("what learners handed in", directory / "submitted"),
+        ("graded notebooks", directory / "autograded"),
+        ("feedback pages, open one in a browser", directory / "feedback"),
+    ]:
+        console.print(f"  {place}  [dim]{what}[/]", highlight=False)
+    console.print(f"  directrix lab {directory}  [dim]JupyterLab with formgrader on this course[/]", highlight=False)
+    if problems:
+        raise CourseError(f"{problems} results of the demo are not as expected; they are listed above")
+
+
+def grade_with_progress(console: Console, course: Any, assignment: str, **options: Any) -> Any:
+    """Grade an assignment under a Rich progress bar."""
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    from autograder import fleet
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as progress:
+        task = progress.add_task(assignment, total=None)
+
+        def tell(done: int, total: int, student: str) -> None:
+            progress.update(task, completed=done, total=total, description=f"{assignment} {student}")
+
+        return fleet.grade(course, assignment, progress=tell, **options)

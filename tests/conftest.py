@@ -1,0 +1,26 @@
+"""What all tests share: Chromium, and the rule that nothing is skipped where the project's own gate runs."""
+
+import os
+import shutil
+
+import pytest
+
+CHROMIUM = next((path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None)
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """Path of a Chromium. Without one a browser test is skipped on a developer's machine, and fails in CI."""
+    if CHROMIUM is None:
+        pytest.skip("no Chromium found: install the package `chromium` to run the browser tests")
+    return CHROMIUM
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """In CI a skipped test is a failed one: CI installs what tests need."""
+    report = yield
+    if report.skipped and os.environ.get("CI") and not hasattr(report, "wasxfail"):
+        report.outcome = "failed"
+        report.longrepr = f"skipped in CI, where nothing may be: {report.longrepr}"
+    return report
