@@ -7,12 +7,19 @@ from pathlib import Path
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 SHIPPED = "autograder/shipped"
-SOLUTION = re.compile(r"^([ \t]*)### BEGIN SOLUTION\n.*?^[ \t]*### END SOLUTION\n", re.DOTALL | re.MULTILINE)
+# In a notebook source a written answer is a comment, so its region begins with "# ".
+SOLUTION = re.compile(r"^((?:# )?[ \t]*)### BEGIN SOLUTION\n.*?^(?:# )?[ \t]*### END SOLUTION$", re.DOTALL | re.MULTILINE)
 
 
 def without_solutions(text: str) -> str:
-    """The notebook source with each marked region replaced by the stub that a learner receives."""
-    return SOLUTION.sub(r"\1raise NotImplementedError\n", text)
+    """The notebook source with a learner's stub in each marked region; the markers stay, for nbgrader wants them."""
+
+    def stub(region: re.Match[str]) -> str:
+        lead = region[1]
+        rows = ["YOUR ANSWER HERE"] if lead.startswith("#") else ["# YOUR CODE HERE", "raise NotImplementedError()"]
+        return "\n".join(lead + row for row in ("### BEGIN SOLUTION", *rows, "### END SOLUTION"))
+
+    return SOLUTION.sub(stub, text)
 
 
 class ShipCourse(BuildHookInterface):

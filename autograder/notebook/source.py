@@ -207,6 +207,7 @@ def _check_exercises(cells: list[Cell], assignment: Assignment) -> None:
     tasks: dict[str, Cell] = {}
     checks: dict[str, Cell] = {}
     for cell in cells:
+        _role(cell)
         for role, found in (("solution", tasks), ("check", checks)):
             if isinstance(id := cell.options.get(role), str):
                 exercise = _exercise(cell, id, assignment)
