@@ -1,0 +1,83 @@
+"""``directrix check``, ``grade`` and ``feedback``: one's own notebook, and a class."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from autograder.cli.course import grade_with_progress
+from autograder.cli.options import AsJson, CourseOption, console_for
+
+
+def check(
+    notebooks: Annotated[list[Path], typer.Argument(help="Notebooks to run and check, for example A1/known-forms.ipynb.")],
+    timeout: Annotated[int, typer.Option(help="Seconds that one cell may take.")] = 60,
+    as_json: AsJson = False,
+) -> None:
+    """Run your own notebooks from top to bottom and show what each check says.
+
+    Example: directrix check A1/known-forms.ipynb
+    """
+    from autograder.cli import ownwork
+
+    console = console_for(as_json)
+    results = [ownwork.run(path, timeout=timeout) for path in notebooks]
+    for result in results:
+        ownwork.show(result, console)
+    if as_json:
+        print(json.dumps([result.to_dict() for result in results], allow_nan=False))
+    if not all(result.complete for result in results):
+        raise typer.Exit(1)
+
+
+def grade(
+    assignment: Annotated[str, typer.Argument(help="Assignment in submitted/, for example A1.")],
+    course: CourseOption = Path(),
+    student: Annotated[list[str] | None, typer.Option(help="Only this student; may be repeated.")] = None,
+    force: Annotated[bool, typer.Option(help="Grade again what is graded already.")] = False,
+    workers: Annotated[int, typer.Option(help="Submissions at a time; 0 means one for each processor.")] = 0,
+    level: Annotated[str, typer.Option(help="Isolation level to require; empty: as the course says, else A.")] = "",
+    as_json: AsJson = False,
+) -> None:
+    """Grade a class: every submission in its own sandbox, marks into gradebook.db, a table at the end.
+
+    Example: directrix grade A1 --student ada
+    """
+    from autograder import fleet, report
+
+    console = console_for(as_json)
+    graded = grade_with_progress(
+        console, fleet.Course(course), assignment, students=student or None, force=force, workers=workers or None,
+        level=level or None,
+    )  # fmt: skip
+    console.print(report.table(graded))
+    if as_json:
+        print(json.dumps(graded.to_dict(), allow_nan=False))
+    for failure in graded.failures:
+        print(f"directrix: {failure}", file=sys.stderr)
+    if graded.failures:
+        raise typer.Exit(1)
+
+
+def feedback(
+    assignment: Annotated[str, typer.Argument(help="A graded assignment, for example A1.")],
+    course: CourseOption = Path(),
+    student: Annotated[list[str] | None, typer.Option(help="Only this student; may be repeated.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write feedback pages: one self-contained HTML file for each graded notebook.
+
+    Example: directrix feedback A1
+    """
+    from autograder import feedback as pages
+    from autograder import fleet
+
+    written = pages.write(fleet.Course(course), assignment, students=student or None)
+    if as_json:
+        print(json.dumps([str(path) for path in written]))
+    else:
+        console_for(as_json).print(f"{len(written)} pages under {course / 'feedback'}", highlight=False)

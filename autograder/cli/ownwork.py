@@ -1,0 +1,112 @@
+"""Runs a learner's own notebook in a Jupyter kernel, as JupyterLab would, and gathers what its checks said."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import nbformat
+from nbclient import NotebookClient
+from nbclient.exceptions import CellTimeoutError, DeadKernelError
+from rich.console import Console
+from rich.table import Table
+
+from autograder.errors import SubmissionError
+
+CHECK = re.compile(r"check\((?P<name>[A-Za-z_]\w*)\)")
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What one check cell said: its points, and the card as text."""
+
+    exercise: str
+    points: float
+    available: float
+    text: str
+
+
+@dataclass(frozen=True)
+class OwnWork:
+    """The checks of one notebook, and why it stopped early if it did."""
+
+    notebook: str
+    checks: tuple[Checked, ...]
+    stopped: str = ""
+
+    @property
+    def complete(self) -> bool:
+        """Everything was checked and is right."""
+        return not self.stopped and bool(self.checks) and all(c.points >= c.available for c in self.checks)
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return asdict(self) | {"complete": self.complete}
+
+
+def run(path: Path, *, timeout: int) -> OwnWork:
+    """Execute a notebook and read the outputs of its ``check(...)`` cells. The file itself is left as it is."""
+    try:
+        notebook = nbformat.read(path, as_version=4)
+    except FileNotFoundError:
+        raise SubmissionError(f"no such notebook: {path}") from None
+    except Exception as error:
+        raise SubmissionError(f"{path} is not a notebook that can be read: {error}") from error
+    stopped = ""
+    client = NotebookClient(
+        notebook, timeout=timeout, allow_errors=True, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
+    )
+    try:
+        client.execute()
+    except CellTimeoutError:
+        stopped = (
+            f"a cell took more than {timeout} seconds, so the cells after it were not run; look for a loop that never ends"
+        )
+    except DeadKernelError:
+        stopped = "the kernel ended while a cell was running, so the cells after it were not run; look for exit() or for memory"
+    return OwnWork(str(path), tuple(_checks(notebook)), stopped)
+
+
+def _checks(notebook: Any) -> list[Checked]:
+    found = []
+    for cell in notebook.cells:
+        graded = cell.metadata.get("nbgrader", {})
+        match = CHECK.fullmatch(cell.source.strip())
+        if cell.cell_type != "code" or not graded.get("grade") or not match:
+            continue
+        shown = [
+            output for output in cell.get("outputs", []) if output.output_type in ("display_data", "execute_result", "error")
+        ]
+        points = next((_number(output) for output in shown if output.output_type == "execute_result"), 0.0)
+        texts = [output.data.get("text/plain", "") for output in shown if output.output_type == "display_data"]
+        text = texts[0] if texts else next((output.evalue for output in shown if output.output_type == "error"), "")
+        found.append(Checked(match["name"], points, float(graded.get("points", 0)), text.strip()))
+    return found
+
+
+def _number(output: Any) -> float:
+    try:
+        value = float(output.data.get("text/plain", ""))
+    except ValueError:
+        return 0.0
+    return value if math.isfinite(value) else 0.0
+
+
+def show(result: OwnWork, console: Console) -> None:
+    """Print the cards as text, then a table."""
+    for checked in result.checks:
+        console.rule(checked.exercise)
+        console.print(checked.text, markup=False, highlight=False)
+    table = Table(title=result.notebook, title_justify="left")
+    table.add_column("exercise")
+    table.add_column("points", justify="right")
+    for checked in result.checks:
+        table.add_row(checked.exercise, f"{checked.points:g} of {checked.available:g}")
+    console.print(table)
+    if result.stopped:
+        console.print(f"Stopped: {result.stopped}.", markup=False)
+    elif not result.checks:
+        console.print("This notebook has no graded check(...) cell.", markup=False)
