@@ -10,12 +10,14 @@ ROOT = Path(__file__).resolve().parents[1]
 # Each room with the rooms it may import, nearest first. A room may always import itself and what its own rooms may import.
 LIBRARY = {
     "errors": (),
+    "frozen": ("errors",),
     "checks": ("errors",),
-    "transform": ("checks",),
+    "transform": ("checks", "frozen"),
     "knots": ("checks",),
+    "quadrature": ("checks",),
     "basis": ("knots",),
-    "curves": ("basis", "transform"),
     "differential": ("basis", "transform"),
+    "curves": ("basis", "transform", "differential", "quadrature"),
     "quadric": ("basis", "transform"),
     "surfaces": ("curves", "differential", "quadric"),
     "solids": ("surfaces",),

@@ -1,1 +1,62 @@
-"""The reference library."""
+"""Every surface form of a first course in geometric modelling: numpy arrays in, numpy arrays out.
+
+``import directrix as dx`` is cheap: each name below is loaded from its module when it is first used.
+"""
+
+from importlib import import_module
+from typing import Any
+
+_NAMES = {
+    # curves
+    "Arc": "curves.arc",
+    "BezierCurve": "curves.bezier",
+    "Circle": "curves.arc",
+    "Curve": "curves.curve",
+    "FunctionCurve": "curves.function",
+    "Line": "curves.line",
+    # known forms
+    "Cone": "surfaces.known",
+    "Cylinder": "surfaces.known",
+    "Plane": "surfaces.plane",
+    "Sphere": "surfaces.known",
+    "Torus": "surfaces.known",
+    "Triangle": "surfaces.plane",
+    # swept
+    "CircularSweep": "surfaces.revolution",
+    "LinearSweep": "surfaces.extrusion",
+    # what all surfaces share
+    "Surface": "surfaces.surface",
+    # moving
+    "Transform": "transform",
+    # errors
+    "ConversionError": "errors",
+    "CornerError": "errors",
+    "CurveError": "errors",
+    "DegenerateError": "errors",
+    "DomainError": "errors",
+    "FrozenError": "errors",
+    "GeometryError": "errors",
+    "KnotError": "errors",
+    "NumberError": "errors",
+    "OrderError": "errors",
+    "ShapeError": "errors",
+    "WeightError": "errors",
+}
+_ROOMS = {"errors", "checks", "plot"}
+
+__all__ = [*_NAMES]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _NAMES:
+        value = getattr(import_module(f"directrix.{_NAMES[name]}"), name)
+    elif name in _ROOMS:
+        value = import_module(f"directrix.{name}")
+    else:
+        raise AttributeError(f"module 'directrix' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_NAMES, *_ROOMS})
