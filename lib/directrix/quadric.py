@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from directrix import checks
 from directrix.errors import DegenerateError, ShapeError
 from directrix.frozen import Frozen
+from directrix.transform import Transform
 
 Array = NDArray[np.float64]
 
@@ -297,25 +298,24 @@ class Quadric(Frozen):
         size = self.size if size is None else checks.not_negative("size", size)
         return _classify(self.matrix, tolerance, size)
 
-    def transformed(self, matrix: ArrayLike) -> Quadric:
-        """The quadric moved by an affine 4x4 matrix T acting on column vectors (x, y, z, 1): Q' = T⁻ᵀ Q T⁻¹.
+    def moved(self, transform: Transform) -> Quadric:
+        """The quadric carried by a transform T, as ``transform @ quadric``: Q' = T⁻ᵀ Q T⁻¹.
 
         Raises
         ------
-        GeometryError
-            If T is not 4x4, not affine, or cannot be inverted.
+        DegenerateError
+            If T has no inverse.
+
+        Examples
+        --------
+        >>> Transform.translate((2, 0, 0)) @ Quadric(1, 1, 0, 0, 0, 0, 0, 0, 0, -1)
+        Quadric(1, 1, 0, 0, 0, 0, -4, 0, 0, 3)
         """
-        T = _square(matrix)
-        if not np.array_equal(T[3], [0, 0, 0, 1]):
-            raise ShapeError(f"a quadric is moved by an affine 4x4 matrix with last row (0, 0, 0, 1); its last row is {T[3]}.")
-        try:
-            linear = np.linalg.inv(T[:3, :3])
-        except np.linalg.LinAlgError:
-            raise DegenerateError("a quadric is moved by a transform that has an inverse; this one flattens space.") from None
-        back = np.eye(4)
-        back[:3] = np.column_stack([linear, -linear @ T[:3, 3]])
-        moved = self.size and float(np.abs(T[:3, :3]).sum(axis=1).max() * self.size + np.abs(T[:3, 3]).max())
-        return Quadric.from_matrix(back.T @ self.matrix @ back, tolerance=self.tolerance, size=moved)
+        back = transform.inverse().matrix
+        reach = (
+            float(np.abs(transform.linear).sum(axis=1).max() * self.size + np.abs(transform.offset).max()) if self.size else 0.0
+        )
+        return Quadric.from_matrix(back.T @ self.matrix @ back, tolerance=self.tolerance, size=reach)
 
 
 def _square(matrix: ArrayLike) -> Array:

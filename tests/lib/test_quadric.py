@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-
 from directrix.errors import DegenerateError, GeometryError, NumberError, ShapeError
 from directrix.quadric import KINDS, Quadric
+from directrix.transform import Transform
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 inf = np.inf
 
@@ -81,7 +81,7 @@ def test_standard_position(coefficients, kind, radii):
         form = Quadric(*(sign * np.array(coefficients))).classify()
         assert form.kind == kind
         if radii is None:
-            assert form.center is None and form.axes is None and form.radii is None
+            assert [form.center, form.axes, form.radii] == [None, None, None]
         else:
             np.testing.assert_allclose(form.radii, radii, rtol=1e-14)
 
@@ -97,7 +97,7 @@ def test_rigid_motion_scaling_and_factor(coefficients, kind, radii, distance):
         if rng.random() < 0.5:
             T[:3, :3] = T[:3, :3] @ np.diag([1, 1, -1])
         factor = rng.choice([-1, 1]) * 10.0 ** rng.integers(-6, 7)
-        form = Quadric(*(factor * Quadric(*coefficients).transformed(T).coefficients)).classify()
+        form = Quadric(*(factor * (Transform(T) @ Quadric(*coefficients)).coefficients)).classify()
         assert form.kind == kind
         if radii is None:
             continue
@@ -113,7 +113,7 @@ def test_rigid_motion_scaling_and_factor(coefficients, kind, radii, distance):
 def test_frame_carries_the_standard_equation(coefficients, kind, radii):
     """Centre, axes and radii together are the same equation: F is a constant multiple of the standard left side."""
     rng = np.random.default_rng(7)
-    quadric = Quadric(*coefficients).transformed(rigid(rng, 3))
+    quadric = Transform(rigid(rng, 3)) @ Quadric(*coefficients)
     form = quadric.classify()
     X = rng.uniform(-5, 5, (50, 3))
     if kind in ("line", "point"):
@@ -141,10 +141,9 @@ def test_signs_of_A_B_C_do_not_decide():
 
 def test_nearly_degenerate_forms_keep_their_kind():
     """A paraboloid seen from afar is no cylinder, a tiny sphere far away no point, a thin ellipsoid no cylinder."""
-    far = np.eye(4)
-    far[:3, 3] = 1e5, 0, 0
-    assert Quadric(1, 1, 0, 0, 0, 0, 0, 0, -1, 0).transformed(far).classify().kind == "elliptic paraboloid"
-    assert Quadric(1, 1, 1, 0, 0, 0, 0, 0, 0, -1).transformed(far).classify().kind == "ellipsoid"
+    far = Transform.translate((1e5, 0, 0))
+    assert (far @ Quadric(1, 1, 0, 0, 0, 0, 0, 0, -1, 0)).classify().kind == "elliptic paraboloid"
+    assert (far @ Quadric(1, 1, 1, 0, 0, 0, 0, 0, 0, -1)).classify().kind == "ellipsoid"
     assert Quadric(1, 1, 1e-10, 0, 0, 0, 0, 0, 0, -1).classify().kind == "ellipsoid"
 
 
@@ -189,7 +188,7 @@ def test_moving_the_quadric_moves_its_points(seed):
     T[:3] = rng.standard_normal((3, 4)) + 2 * np.eye(3, 4)
     there = X @ T[:3, :3].T + T[:3, 3]
     back = np.linalg.cond(T) ** 2
-    np.testing.assert_allclose(q.transformed(T)(there), q(X), atol=1e-12 * back)
+    np.testing.assert_allclose((Transform(T) @ q)(there), q(X), atol=1e-12 * back)
 
 
 def surface_points(kind, rng, n):
@@ -257,6 +256,4 @@ def test_bad_input_is_named():
     with pytest.raises(ShapeError, match=r"points must have shape \(\.\.\., 3\); got \(2,\)"):
         Quadric(1, 1, 1, 0, 0, 0, 0, 0, 0, 0)([1, 2])
     with pytest.raises(DegenerateError, match="flattens space"):
-        Quadric(1, 1, 1, 0, 0, 0, 0, 0, 0, 0).transformed(np.diag([1, 1, 0, 1]))
-    with pytest.raises(ShapeError, match="last row"):
-        Quadric(1, 1, 1, 0, 0, 0, 0, 0, 0, 0).transformed(np.ones((4, 4)))
+        Transform(np.diag([1, 1, 0, 1])) @ Quadric(1, 1, 1, 0, 0, 0, 0, 0, 0, 0)
