@@ -14,20 +14,22 @@ import hashlib
 import inspect
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 import nbformat
 
 from autograder.catalogue import Assignment
 from autograder.errors import CourseError
 from autograder.exercise import Exercise
-from autograder.notebook.text import BEGIN, CODE_STUB, KERNELSPEC, TEXT_STUB, Cell, read, region, stubbed
+from autograder.notebook.chapter import build_chapter, chapters
+from autograder.notebook.text import BEGIN, CODE_STUB, TEXT_STUB, Cell, Notebook, assembled, new_cell, read, region, stubbed
 
-Notebook = nbformat.NotebookNode
 Role = Literal["solution", "check", "written", "locked", "setup"]
 ROLES: tuple[Role, ...] = ("solution", "check", "written", "locked", "setup")
 OPTIONS = {*ROLES, "points"}
 SCHEMA_VERSION = 3
+
+__all__ = ["build", "build_chapter", "chapters", "dumps", "release", "setup_source", "write"]
 
 
 def build(assignment: Assignment, *, solutions: bool = True) -> Notebook:
@@ -58,21 +60,6 @@ def write(assignment: Assignment, folder: Path | str, *, solutions: bool = True)
     path = folder / f"{assignment.slug}.ipynb"
     path.write_text(dumps(build(assignment, solutions=solutions)), "utf-8")
     return path
-
-
-def assembled(cells: list[dict[str, Any]]) -> Notebook:
-    """A valid notebook of these cells, with the kernel named: without one, JupyterLab asks and runs nothing."""
-    metadata = {"kernelspec": dict(KERNELSPEC), "language_info": {"name": "python"}}
-    whole = {"nbformat": 4, "nbformat_minor": 5, "metadata": metadata, "cells": cells}
-    nb = cast(Notebook, nbformat.from_dict(whole))  # type: ignore[no-untyped-call]
-    nbformat.validate(nb)
-    return nb
-
-
-def new_cell(kind: str, source: str, id: str, metadata: dict[str, Any] | None = None) -> dict[str, Any]:
-    """A cell without outputs."""
-    cell: dict[str, Any] = {"cell_type": kind, "id": id, "metadata": metadata or {}, "source": source}
-    return cell | ({"outputs": [], "execution_count": None} if kind == "code" else {})
 
 
 def dumps(nb: Notebook) -> str:

@@ -18,12 +18,14 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import jupytext
+import nbformat
 
 from autograder.errors import CourseError
 
+Notebook = nbformat.NotebookNode
 MARKER = re.compile(r"# ?%%")
 BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 # What nbgrader's ClearSolutions leaves behind, so that a book made from stubs and one made from solutions release alike.
@@ -117,3 +119,18 @@ def stubbed(cell: Cell, *, keep_markers: bool = True) -> str:
     stub = [indent + row for row in (CODE_STUB if cell.kind == "code" else TEXT_STUB).split("\n")]
     inside = [rows[begin], *stub, rows[end]] if keep_markers else stub
     return "\n".join([*rows[:begin], *inside, *rows[end + 1 :]])
+
+
+def assembled(cells: list[dict[str, Any]]) -> Notebook:
+    """A valid notebook of these cells, with the kernel named: without one, JupyterLab asks and runs nothing."""
+    metadata = {"kernelspec": dict(KERNELSPEC), "language_info": {"name": "python"}}
+    whole = {"nbformat": 4, "nbformat_minor": 5, "metadata": metadata, "cells": cells}
+    nb = cast(Notebook, nbformat.from_dict(whole))  # type: ignore[no-untyped-call]
+    nbformat.validate(nb)
+    return nb
+
+
+def new_cell(kind: str, source: str, id: str, metadata: dict[str, Any] | None = None) -> dict[str, Any]:
+    """A cell without outputs."""
+    cell: dict[str, Any] = {"cell_type": kind, "id": id, "metadata": metadata or {}, "source": source}
+    return cell | ({"outputs": [], "execution_count": None} if kind == "code" else {})
