@@ -78,7 +78,7 @@ def unit_normal(point: Array, tangent_u: Array, tangent_w: Array) -> tuple[Array
     tiny = ROUNDING * (long_u + long_w + norm(point))
     regular = (area > PARALLEL * long_u * long_w) & (long_u > tiny) & (long_w > tiny)
     scale = np.divide(1.0, area, out=np.zeros_like(area), where=regular)
-    return normal * scale[..., None], regular
+    return normal * scale[..., None] + 0.0, regular  # no -0.0
 
 
 def first_form(tangent_u: Array, tangent_w: Array) -> FirstForm:
@@ -198,7 +198,8 @@ def limit_curvature(jet: Jet, u: float, w: float) -> tuple[float, float]:
         normal, regular = unit_normal(point, su, sw)
         if regular.all():
             bent = curvature(su, sw, second_form(normal, *seconds))
-            found.append(richardson(np.stack([bent.k1, bent.k2], axis=-1)))
+            values = np.stack([bent.k1, bent.k2], axis=-1)
+            found += [richardson(values), richardson(values[:-1])]  # two estimates: a curvature that grows has no limit
     spread = np.ptp(found, axis=0).max() if found else np.inf
     if spread > 1e-3 * (1 + np.abs(found).max(initial=0.0)):
         return np.nan, np.nan

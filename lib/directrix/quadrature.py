@@ -32,9 +32,9 @@ def integrate_square(
 ) -> float:
     """The integral of f over the unit square; ``across=False`` leaves w undivided.
 
-    Each cell is compared with its halves (Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed., section 6.1); cells that
-    agree are done, the others are divided. After 20 halvings what is left is taken as it is: a kink along a curve then costs
-    less than 1e-9.
+    Each cell is compared with its halves (Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed., section 6.1);
+    cells that agree are done, the others are divided. After 20 halvings what is left is taken as it is: a kink along a
+    curve then costs less than 1e-9.
     """
     cells = np.array([(a, b, c, d) for a, b in pairwise(breaks_u) for c, d in pairwise(breaks_w)])
     values, total = _cell_integrals(f, cells), 0.0

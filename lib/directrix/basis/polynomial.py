@@ -23,11 +23,7 @@ def linear(t: Array, start: Array | float, end: Array | float, derivative: int =
     """
     if derivative == 0:
         return np.asarray((1 - t) * start + t * end)
-    slope = (
-        np.subtract(end, start, dtype=np.float64)
-        if derivative == 1
-        else np.zeros(np.broadcast_shapes(np.shape(start), np.shape(end)))
-    )
+    slope = np.subtract(end, start, dtype=np.float64) * (derivative == 1)
     return np.broadcast_to(slope, np.broadcast_shapes(np.shape(t), slope.shape))
 
 
@@ -103,7 +99,7 @@ def lagrange(nodes: Array, t: Array, derivative: int = 0) -> Array:
         others = np.delete(nodes, i)
         scale = np.prod(nodes[i] - others)
         if derivative == 0:
-            result[..., i] = np.prod(t[..., None] - others, axis=-1) / scale
+            result[..., i] = np.prod(t[..., None] - others, axis=-1) / scale + 0.0  # no -0.0
         else:
             factors = polynomial.polyfromroots(others - 0.5)
             result[..., i] = polynomial.polyval(t - 0.5, polynomial.polyder(factors, derivative)) / scale

@@ -85,7 +85,7 @@ class Curve(Frozen):
         """Arc length: the integral of |p'(u)|, by adaptive Gauss quadrature to about 1e-10 of itself.
 
         >>> from directrix.curves.line import Line
-        >>> Line((0, 0, 0), (3, 4, 0)).length()
+        >>> round(Line((0, 0, 0), (3, 4, 0)).length(), 12)
         5.0
         """
         return integrate(lambda u: norm(self.derivative(u)), self.breaks())

@@ -67,7 +67,8 @@ class FunctionCurve(Curve):
         if value.shape != (len(u), 3):
             raise CurveError(
                 f"a curve must return points of shape u.shape + (3,): for u of shape ({len(u)},) that is ({len(u)}, 3); "
-                f"got {value.shape}. np.stack([x, y, z], axis=-1) puts the coordinates last; give each the shape of u (0 * u for 0).",
+                f"got {value.shape}. np.stack([x, y, z], axis=-1) puts the coordinates last; "
+                "give each the shape of u (0 * u for 0).",
                 got=value.shape,
             )
         if not np.isfinite(value).all():
