@@ -1,0 +1,279 @@
+"""Two samplings of one form against each other: the reference, and yours coloured by how far it is off.
+
+Both are drawn on the same axes at the same scale, in two scenes whose cameras turn together (see figures.js); buttons turn both
+where no script may run. The worst place carries the same mark in both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from directrix.errors import ShapeError
+from directrix.plot import palette, traces
+from directrix.plot.sampling import Array, bounds, deviation, grid_normals, size_of
+from directrix.plot.scene import VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
+
+HEIGHT = 430
+LINES = 8  # parameter lines each way, apart from the edges: every eighth of the range
+FAR = 4.0  # a surface that runs further out than this many sizes of the reference leaves the picture
+FARTHER = 1.14  # two narrow scenes want their cameras a little further away
+DOMAINS = ((0.0, 0.455), (0.465, 0.92))
+
+
+def compare(
+    parameters: Sequence[ArrayLike],
+    expected: ArrayLike,
+    yours: ArrayLike | None,
+    *,
+    worst: Sequence[float] | None = None,
+    size: float | None = None,
+    names: tuple[str, str] = ("reference", "yours"),
+    title: str | None = None,
+    same: bool = False,
+) -> dict[str, Any]:
+    """A comparison figure of sampled curves or surfaces, as plain JSON (``data`` and ``layout``).
+
+    Parameters
+    ----------
+    parameters : the values along each axis: [u (n,)] for a curve, [u (n,), w (m,)] for a surface
+    expected : (n, 3) or (n, m, 3), the reference
+    yours : the same shape, or None where there is nothing to compare: then the reference stands alone
+    worst : the parameter place to mark; by default the sample that is furthest off
+    size : what deviations are divided by; by default the diagonal of the reference's box
+    names : what the two are called
+    title : a line above
+    same : True draws ``yours`` alone, since it is the reference
+
+    Raises
+    ------
+    ShapeError
+        If the arrays do not fit each other.
+    """
+    return encode(comparison(parameters, expected, yours, worst=worst, size=size, names=names, title=title, same=same))
+
+
+def comparison(
+    parameters: Sequence[ArrayLike],
+    expected: ArrayLike,
+    yours: ArrayLike | None,
+    *,
+    worst: Sequence[float] | None = None,
+    size: float | None = None,
+    names: tuple[str, str] = ("reference", "yours"),
+    title: str | None = None,
+    same: bool = False,
+) -> dict[str, Any]:
+    """:func:`compare` with its arrays still arrays."""
+    axes = [np.asarray(axis, dtype=float) for axis in parameters]
+    right = _points("expected", expected, axes)
+    if yours is None or same:
+        shown, name = (right, names[0]) if yours is None else (_points("yours", yours, axes), names[1])
+        return _alone(axes, shown, name, title, same)
+    left = _points("yours", yours, axes)
+    size = size or size_of(right)
+    off = deviation(right, left) / size
+    place = _worst(axes, off, worst)
+    draw = _two_curves if len(axes) == 1 else _two_scenes
+    return draw(axes, right, left, off, place, names, title)
+
+
+def _two_scenes(
+    axes: list[Array], right: Array, left: Array, off: Array, place: Array | None, names: tuple[str, str], title: str | None
+) -> dict[str, Any]:
+    u, w = axes
+    box, far = _box(right, left)
+    top = float(np.nanmax(off)) if np.isfinite(off).any() else 0.0
+    limits = (0.0, top if top > 0 else 1.0)
+    bar = {
+        "title": {"text": "off by<br>÷ size", "font": {"size": 12}}, "thickness": 12, "len": 0.78, "x": 0.935,
+        "xanchor": "left", "y": 0.5, "tickfont": {"size": 11}, "nticks": 6, "outlinewidth": 0, "tickformat": ".3~g",
+    }  # fmt: skip
+    data = [
+        traces.surface(right, u, w, scene="scene", name=names[0]),
+        traces.surface(left, u, w, colour=off, bar=bar, limits=limits, says="off by (÷ size)", scene="scene2", name=names[1]),
+    ]
+    data += _lines(right, u, w, "scene") + _lines(left, u, w, "scene2")
+    data += _marked(axes, right, left, place, "scene", "scene2")
+    notes = [
+        word(f"<b>{short(names[0])}</b>", sum(DOMAINS[0]) / 2, 1.0, size=14),
+        word(f"<b>{short(names[1])}</b>, coloured by its deviation", sum(DOMAINS[1]) / 2, 1.0, size=14),
+        word(legend(extra=coloured("◆ largest deviation", palette.MARK) if place is not None else ""), 0.99, -0.03,
+             anchor="right", yanchor="top"),
+    ]  # fmt: skip
+    if far:
+        notes.append(word(f"runs out of the picture: {far}", sum(DOMAINS[1]) / 2, 0.02))
+    alt = (
+        f"Two 3-D scenes on the same axes whose cameras turn together. Left: {names[0]}. Right: {names[1]}, coloured by its "
+        f"deviation. {_said(off, place)}{f' It runs out of the picture: {far}.' if far else ''}"
+    )
+    corner = box.corner(None if place is None else between(axes, right, place))
+    figure = layout(height=HEIGHT, title=title, alt=alt, link=("scene", "scene2"))
+    figure |= {
+        "scene": scene(box, DOMAINS[0], distance=FARTHER, corner=corner),
+        "scene2": scene(box, DOMAINS[1], distance=FARTHER, corner=corner),
+        "annotations": notes,
+        "updatemenus": [_views(("scene", "scene2"), corner)],
+    }
+    figure["margin"] |= {"t": 62 if title else 34}
+    return {"data": data, "layout": figure}
+
+
+def _two_curves(
+    axes: list[Array], right: Array, left: Array, off: Array, place: Array | None, names: tuple[str, str], title: str | None
+) -> dict[str, Any]:
+    box, far = _box(right, left)
+    data = [
+        traces.curve(right, axes[0], colour=palette.REFERENCE, name=names[0], width=8),
+        traces.curve(left, axes[0], colour=palette.YOURS, name=names[1], width=5, dash="dash"),
+        *_marked(axes, right, left, place, "scene", "scene"),
+    ]
+    words = [
+        coloured(f"━ {short(names[0])}", palette.REFERENCE),
+        coloured(f"╍ {short(names[1])}", palette.YOURS),
+        *([coloured("◆ largest deviation", palette.MARK)] if place is not None else []),
+        *([f"runs out of the picture: {far}"] if far else []),
+    ]
+    alt = f"One 3-D scene with two curves: {names[0]}, and {names[1]} dashed. {_said(off, place)}"
+    figure = layout(height=HEIGHT, title=title, alt=alt)
+    figure |= {"scene": scene(box), "annotations": [word("&nbsp;&nbsp;&nbsp;".join(words), 0.5, -0.03, yanchor="top")]}
+    return {"data": data, "layout": figure}
+
+
+def _alone(axes: list[Array], points: Array, name: str, title: str | None, same: bool) -> dict[str, Any]:
+    alt = f"A 3-D scene: {name}" + (", which agrees with the reference everywhere." if same else ".")
+    figure = layout(height=HEIGHT, title=title, alt=alt)
+    words = [f"<b>{short(name)}</b>" + (" = the reference" if same else "")]
+    if len(axes) == 1:
+        data = [traces.curve(points, axes[0], colour=palette.U, name=name)]
+    else:
+        data = [traces.surface(points, *axes, name=name), *_lines(points, *axes, "scene")]
+        words.append(legend())
+    figure |= {
+        "scene": scene(Box.around(points)),
+        "annotations": [word("&nbsp;&nbsp;&nbsp;".join(words), 0.5, -0.03, yanchor="top")],
+    }
+    return {"data": data, "layout": figure}
+
+
+def edges_and_lines(count: int, lines: int) -> tuple[list[int], list[int]]:
+    """Indices of the two edges, and of about ``lines - 1`` samples evenly between them."""
+    step = max((count - 1) / lines, 1.0)
+    inner = sorted({round(i * step) for i in range(1, lines)} & set(range(1, count - 1)))
+    return [0, count - 1], inner
+
+
+def _lines(points: Array, u: Array, w: Array, where: str) -> list[dict[str, Any]]:
+    """Parameter lines inside, the edges thicker, and the letters that say which way u and w run."""
+    rows, columns = edges_and_lines(len(u), LINES), edges_and_lines(len(w), LINES)
+    drawn = [
+        traces.parameter_lines(points, along="u", at=columns[1], width=1.5, scene=where),
+        traces.parameter_lines(points, along="w", at=rows[1], width=1.5, scene=where),
+        traces.parameter_lines(points, along="u", at=columns[0], width=3.5, scene=where),
+        traces.parameter_lines(points, along="w", at=rows[0], width=3.5, scene=where),
+    ]
+    return [trace for trace in drawn if len(trace["x"])] + letters(points, where)
+
+
+def letters(points: Array, where: str, labels: tuple[str, str] = ("u", "w")) -> list[dict[str, Any]]:
+    """A dot where u = w = 0, and each letter a quarter along its edge from there."""
+    places = [(len(points) // 4, 0), (0, points.shape[1] // 4)]
+    ends = np.stack([points[place] for place in places])
+    if np.isfinite(points).any():  # moved off the surface, away from the middle, or it would hide them
+        low, high = bounds(points)
+        away = np.stack([grid_normals(points)[place] for place in places])
+        sign = np.sign(np.sum(away * (ends - (low + high) / 2), axis=1, keepdims=True))
+        ends = ends + 0.035 * size_of(points) * away * np.where(sign == 0, 1.0, sign)
+    start = points[:1, 0]
+    placed = [traces.words(ends, labels, (palette.U, palette.W), scene=where)] if np.isfinite(ends).all() else []
+    if np.isfinite(start).all():
+        name = f"{labels[0]} = {labels[1]} = 0"
+        placed.append(traces.marks(start, colour=palette.INK, size=4, symbol="circle", name=name, scene=where))
+    return placed
+
+
+def _marked(axes: list[Array], right: Array, left: Array, place: Array | None, first: str, second: str) -> list[dict[str, Any]]:
+    """The worst place in both, and in yours a line to where it should be."""
+    if place is None:
+        return []
+    there, here = between(axes, right, place), between(axes, left, place)
+    label = f"{'largest deviation' if first != second else 'here'}, {_at(place)}"
+    goal = f"should be here, {_at(place)}"
+    drawn = [traces.marks(there, colour=palette.MARK, size=6, symbol="diamond", name=goal, scene=first)]
+    if np.isfinite(here).all():
+        drawn.append(traces.marks(here, colour=palette.MARK, size=6, symbol="diamond", name=label, scene=second))
+        if first != second:
+            drawn.append(traces.marks(there, colour=palette.MARK, size=6, symbol="diamond-open", name=goal, scene=second))
+        drawn.append(traces.line([np.stack([here, there])], colour=palette.MARK, width=3, dash="dot", name="off", scene=second))
+    return drawn
+
+
+def between(axes: list[Array], points: Array, place: Array) -> Array:
+    """The point of a sampling at any parameters, linear between the samples."""
+    for axis, value in zip(axes, place, strict=True):
+        i = int(np.clip(np.searchsorted(axis, value, side="right") - 1, 0, max(len(axis) - 2, 0)))
+        after = min(i + 1, len(axis) - 1)
+        t = 0.0 if after == i else float(np.clip((value - axis[i]) / (axis[after] - axis[i]), 0.0, 1.0))
+        points = points[i] if t == 0 else points[after] if t == 1 else (1 - t) * points[i] + t * points[after]
+    return points
+
+
+def _worst(axes: list[Array], off: Array, worst: Sequence[float] | None) -> Array | None:
+    if worst is not None and len(worst) == len(axes):
+        return np.asarray(worst, dtype=float)
+    if not np.isfinite(off).any() or np.nanmax(off) <= 1e-9:
+        return None
+    index = np.unravel_index(int(np.nanargmax(off)), off.shape)
+    return np.array([axis[i] for axis, i in zip(axes, index, strict=True)])
+
+
+def _box(right: Array, left: Array) -> tuple[Box, str]:
+    """The common box. A surface that runs far out is cut, or the reference would be a dot; the words say how far."""
+    finite = left[np.isfinite(left).all(axis=-1)]
+    if not len(finite):
+        return Box.around(right), "no point of it is finite"
+    size, centre = size_of(right), np.nanmean(right.reshape(-1, 3), axis=0)
+    reach = float(np.linalg.norm(finite - centre, axis=-1).max())
+    if reach <= FAR * size:
+        return Box.around(right, finite), ""
+    near = np.clip(finite, centre - size, centre + size)
+    return Box.around(right, near), f"up to {reach / size:.3g} sizes away"
+
+
+def _views(scenes: tuple[str, ...], corner: tuple[float, float, float]) -> dict[str, Any]:
+    """Buttons for the standard views; they turn all scenes at once without any script."""
+    buttons = [
+        {"label": view, "method": "relayout", "args": [{f"{name}.camera": camera(view, FARTHER, corner) for name in scenes}]}
+        for view in VIEWS
+    ]
+    return {
+        "type": "buttons", "direction": "right", "buttons": buttons, "showactive": False, "x": 0.0, "y": 0.0,
+        "xanchor": "left", "yanchor": "top", "pad": {"l": 6, "t": 8}, "bgcolor": palette.CLEAR, "bordercolor": palette.GRID,
+        "font": {"size": 11, "color": palette.INK},
+    }  # fmt: skip
+
+
+def _points(name: str, given: ArrayLike, axes: list[Array]) -> Array:
+    points = np.asarray(given, dtype=float)
+    shape = (*(len(axis) for axis in axes), 3)
+    if len(axes) not in (1, 2) or points.shape != shape:
+        raise ShapeError(
+            f"{name} must have shape {shape}, one point for each of the parameters given; got {points.shape}", got=points.shape
+        )
+    return np.where(np.isfinite(points).all(axis=-1, keepdims=True), points, np.nan)
+
+
+def _at(place: Array) -> str:
+    letters = "u" if len(place) == 1 else "(u, w)"
+    numbers = ", ".join(f"{value:.3g}" for value in place)
+    return f"{letters} = {numbers}" if len(place) == 1 else f"{letters} = ({numbers})"
+
+
+def _said(off: Array, place: Array | None) -> str:
+    if place is None:
+        return "They agree."
+    top = f"{np.nanmax(off):.3g} of its size" if np.isfinite(off).any() else "not finite"
+    return f"Largest deviation {top}, marked at {_at(place)}."

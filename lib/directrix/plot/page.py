@@ -1,0 +1,61 @@
+"""Figures in a static page that needs no network: plotly.js once, the figures as data, and figures.js that draws them.
+
+    html = f"<head>{head()}</head><body>{fragment(figure)}{fragment(another)}</body>"
+
+Figures are drawn when they come near the window and taken away again when they are far, so that a page may hold any number.
+"""
+
+from __future__ import annotations
+
+import functools
+import html
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+LABEXTENSION = Path(__file__).with_name("labextension")
+
+
+def head(*, plotly_url: str | None = None) -> str:
+    """The scripts of the page, once, for its ``<head>``: plotly.js (4.8 MB, or a link to it) and figures.js."""
+    if plotly_url is None:
+        plotly = f"<script>{_closed(_plotly_js())}</script>"
+    else:
+        plotly = f'<script src="{html.escape(plotly_url, quote=True)}"></script>'
+    return f"{plotly}\n<script>{_closed(figures_js())}</script>"
+
+
+def fragment(figure: Mapping[str, Any] | Any) -> str:
+    """One figure, as data that no browser executes, with its height kept free and its words for who cannot see it.
+
+    ``figure`` is a plotly Figure or its JSON dict. Whatever strings it holds, they cannot leave the ``<script>`` element.
+    """
+    plain = figure if isinstance(figure, Mapping) else json.loads(figure.to_json())
+    shown = {"data": plain.get("data", []), "layout": plain.get("layout", {})}
+    height = shown["layout"].get("height", 450)
+    height = min(max(float(height), 100.0), 2000.0) if isinstance(height, int | float) else 450.0
+    meta = shown["layout"].get("meta")
+    alt = str(meta.get("alt", "")) if isinstance(meta, Mapping) else ""
+    # "<" never stands in JSON but inside a string, where its escape means the same.
+    data = json.dumps(shown, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+    return (
+        f'<div class="directrix-figure" role="img" aria-label="{html.escape(alt, quote=True)}" style="min-height:{height:g}px">'
+        f'<script type="application/vnd.plotly.v1+json">{data}</script></div>'
+    )
+
+
+def figures_js() -> str:
+    """The text of figures.js, which links cameras and draws fragments."""
+    return (LABEXTENSION / "static" / "figures.js").read_text("utf-8")
+
+
+@functools.cache
+def _plotly_js() -> str:
+    from plotly.offline import get_plotlyjs
+
+    return str(get_plotlyjs())
+
+
+def _closed(script: str) -> str:
+    return script.replace("</script", "<\\/script")

@@ -1,0 +1,142 @@
+"""Evaluates what is to be drawn on a mesh, and says clearly what is wrong when it cannot be drawn.
+
+Whatever is callable may be drawn: a form of the library, a lambda, a learner's own function. So nothing is assumed of it but
+that it takes parameters in [0, 1] and returns points along the last axis.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from directrix.errors import CurveError, GeometryError, ShapeError
+
+Array = NDArray[np.float64]
+LETTERS = {1: ("u",), 2: ("u", "w"), 3: ("u", "v", "w")}
+
+
+def count_parameters(f: Callable[..., Any]) -> int:
+    """How many parameters f takes: 1 for a curve, 2 for a surface, 3 for a solid.
+
+    Raises
+    ------
+    CurveError
+        If f is no function of one, two or three parameters.
+    """
+    if not callable(f):
+        raise CurveError(
+            f"a picture needs a function of u and w; got {_described(f)}. Pass the function itself: view(f), not view(f(u, w))."
+        )
+    try:
+        given = inspect.signature(f).parameters.values()
+    except (TypeError, ValueError):  # compiled functions without a signature
+        return 2
+    if any(one.kind is one.VAR_POSITIONAL for one in given):
+        return 2
+    positional = [one for one in given if one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)]
+    needed = [one.name for one in positional if one.default is one.empty]
+    count = len(needed) or min(len(positional), 2)
+    if count not in LETTERS:
+        name = getattr(f, "__name__", "f")
+        extra = ", ".join(needed[2:])
+        raise CurveError(
+            f"a picture needs a function of u and w alone; {name} takes {', '.join(needed) or 'nothing'}. "
+            f"Fix the others first: view(lambda u, w: {name}(u, w, ...)) with values for {extra or 'them'}."
+        )
+    return count
+
+
+def sample(f: Callable[..., Any], *parameters: Array) -> Array:
+    """Points of f on the open mesh of the parameters, shape (len(u), len(w), 3) for a surface, (len(u), 3) for a curve.
+
+    Points that are not finite are kept as NaN and drawn as holes.
+
+    Raises
+    ------
+    ShapeError
+        If the answer is no array of points of that shape.
+    """
+    shape = tuple(len(axis) for axis in parameters)
+    mesh = np.meshgrid(*parameters, indexing="ij", sparse=True)
+    with np.errstate(all="ignore"):
+        answer = f(*mesh)
+    letters = LETTERS[len(parameters)]
+    try:
+        points = np.asarray(answer, dtype=float)
+    except (TypeError, ValueError):
+        raise ShapeError(f"a picture needs points (x, y, z) for every {_listed(letters)}; got {_described(answer)}") from None
+    if points.shape == (3,):  # a constant answer: one point for all
+        points = np.broadcast_to(points, (*shape, 3))
+    if points.shape != (*shape, 3):
+        raise ShapeError(
+            f"for {' and '.join(f'{letter} of shape {axis.shape}' for letter, axis in zip(letters, mesh, strict=True))} "
+            f"the points must have shape {(*shape, 3)}; got {points.shape}. {_advice(points, shape)}",
+            got=points.shape,
+        )
+    return np.where(np.isfinite(points), points, np.nan)
+
+
+def grid_normals(points: Array) -> Array:
+    """Unit normals of a sampled surface (n, m, 3) by differences; (0, 0, 0) where they vanish, as at a pole."""
+    along_u = np.gradient(points, axis=0) if len(points) > 1 else np.zeros_like(points)
+    along_w = np.gradient(points, axis=1) if points.shape[1] > 1 else np.zeros_like(points)
+    normals = np.cross(along_u, along_w)
+    length = np.linalg.norm(normals, axis=-1, keepdims=True)
+    steps = np.linalg.norm(along_u, axis=-1, keepdims=True) * np.linalg.norm(along_w, axis=-1, keepdims=True)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(length > 1e-9 * np.maximum(steps, 1e-300), normals / length, 0.0)
+
+
+def deviation(expected: Array, yours: Array) -> Array:
+    """Distance between two samplings, point by point; NaN where one of them is not finite."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        distance: Array = np.linalg.norm(np.asarray(yours) - np.asarray(expected), axis=-1)
+    return np.where(np.isfinite(distance), distance, np.nan)
+
+
+def size_of(*samplings: Array) -> float:
+    """Diagonal of the box around all points, never 0."""
+    low, high = bounds(*samplings)
+    return float(np.linalg.norm(high - low)) or 1.0
+
+
+def bounds(*samplings: Array) -> tuple[Array, Array]:
+    """Lowest and highest finite coordinates of all points.
+
+    Raises
+    ------
+    GeometryError
+        If no point is finite.
+    """
+    stacked = np.concatenate([np.reshape(points, (-1, 3)) for points in samplings])
+    stacked = stacked[np.isfinite(stacked).all(axis=1)]
+    if not len(stacked):
+        raise GeometryError("there is nothing to draw: every point is NaN or infinite. Evaluate it at (0.5, 0.5) and look.")
+    return stacked.min(axis=0), stacked.max(axis=0)
+
+
+def _advice(points: Array, shape: tuple[int, ...]) -> str:
+    if points.shape == (3, *shape):
+        return "The coordinates come first: put them last, np.stack([x, y, z], axis=-1)."
+    if points.shape == (*shape, 2):
+        return "The third coordinate is missing: a plane figure needs z = 0 as well."
+    if points.ndim == len(shape) + 1 and points.shape[-1] == 3:
+        return "Combine u and w by broadcasting; np.broadcast_arrays(x, y, z) brings the coordinates to one shape."
+    return "Return np.stack(np.broadcast_arrays(x, y, z), axis=-1)."
+
+
+def _listed(letters: tuple[str, ...]) -> str:
+    return letters[0] if len(letters) == 1 else f"({', '.join(letters)})"
+
+
+def _described(value: Any) -> str:
+    if value is None:
+        return "None: is a return missing?"
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape} and type {value.dtype}"
+    text = repr(value)
+    return f"{text if len(text) <= 60 else text[:57] + '...'} ({type(value).__name__})"

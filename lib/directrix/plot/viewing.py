@@ -1,0 +1,315 @@
+"""``view``: a picture of anything that can be called with u and w."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from directrix.errors import GeometryError, ShapeError
+from directrix.plot import palette, traces
+from directrix.plot.comparing import LINES, comparison, edges_and_lines, letters
+from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, size_of
+from directrix.plot.scene import Box, coloured, layout, legend, scene, short, word
+from directrix.plot.square import parameter_square
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
+
+SAMPLES = 65  # 64 steps: eighths and quarters fall on samples
+MOST = 121
+HEIGHT = 460
+NORMALS = 9  # needles each way
+COLOURS = ("gaussian", "mean")
+
+
+def view(
+    f: Callable[..., Any],
+    *,
+    against: Callable[..., Any] | None = None,
+    net: ArrayLike | None = None,
+    normals: bool = False,
+    knots: Sequence[ArrayLike] | None = None,
+    colour: str | None = None,
+    square: bool = False,
+    mark: Sequence[float] | None = None,
+    curves: Mapping[str, Callable[..., Any] | ArrayLike] | None = None,
+    title: str | None = None,
+    names: tuple[str, str] = ("reference", "yours"),
+    samples: int = SAMPLES,
+    lines: int = LINES,
+    height: int | None = None,
+) -> Figure:
+    """A 3-D picture of a surface, a curve or a solid: any callable f(u, w), f(u) or f(u, v, w) with parameters in [0, 1].
+
+    The lines of a surface are its parameter lines, blue where u runs and orange where w runs, every eighth of the range; the
+    dot is u = w = 0, and the letters stand on the edges where u and w grow from there. Hovering tells (u, w) and the point.
+
+    Parameters
+    ----------
+    f : callable
+        Called once with arrays, u of shape (n, 1) and w of shape (1, m); returns points (n, m, 3). For a curve u (n,) and
+        points (n, 3). A solid is drawn as its six faces.
+    against : callable, optional
+        The reference of a comparison. Two scenes on the same axes, whose cameras turn together: ``against`` on the left, f
+        coloured by its deviation on the right, divided by the size (the diagonal of the reference's box); the largest is
+        marked in both. ``names`` says what they are called, (left, right).
+    net : (m, n, 3) or (m, 3), optional
+        A control net or polygon, drawn with its points P[i, j].
+    normals : bool
+        Needles along the unit normals: ``f.normal(u, w)`` where f has it, differences of the samples otherwise.
+    knots : (values of u, values of w), optional
+        Parameters in [0, 1] whose lines are drawn thick and light blue.
+    colour : {"gaussian", "mean"}, optional
+        Colours the surface by ``f.curvature(u, w)``.
+    square : bool
+        The parameter square beside the surface, its lines in the same colours.
+    mark : (u, w), optional
+        A place that is marked on the surface and in the square.
+    curves : mapping of name to callable or points, optional
+        Further curves in the same scene: c(t) for t in [0, 1], or points (n, 3).
+    title : str, optional
+    samples : int
+        Samples each way, 2 to 121.
+    lines : int
+        Parts into which the parameter lines divide each range; 1 draws the edges only.
+    height : int, optional
+        Height in pixels.
+
+    Returns
+    -------
+    plotly.graph_objects.Figure
+
+    Raises
+    ------
+    GeometryError
+        Where f, or something beside it, cannot be drawn; the message says what to change.
+    """
+    if not 2 <= samples <= MOST:
+        raise GeometryError(f"samples must be from 2 to {MOST}; got {samples}. More would only make the notebook heavy.")
+    count = count_parameters(f)
+    if against is not None:
+        built = _against(f, against, count, names, title, samples)
+    elif count == 1:
+        built = _curve(f, title, samples, mark)
+    elif count == 3:
+        built = _solid(f, title, min(samples, 33))
+    else:
+        built = _surface(f, title, samples, lines, colour=colour, normals=normals, knots=knots, square=square, mark=mark)
+    extra = _extra(net, curves, samples)
+    if extra:
+        built["data"] += extra
+        if against is None:
+            points = [np.stack([trace[axis] for axis in "xyz"], axis=-1) for trace in extra]
+            box = Box.around(built.pop("points"), *points)
+            built["layout"]["scene"] = scene(box, tuple(built["layout"]["scene"]["domain"]["x"]))
+    built.pop("points", None)
+    if height is not None:
+        built["layout"]["height"] = height
+    return _figure(built)
+
+
+def _surface(
+    f: Callable[..., Any], title: str | None, samples: int, lines: int, *,
+    colour: str | None, normals: bool, knots: Sequence[ArrayLike] | None, square: bool, mark: Sequence[float] | None,
+) -> dict[str, Any]:  # fmt: skip
+    u = w = np.linspace(0.0, 1.0, samples)
+    points = sample(f, u, w)
+    name = short(_name_of(f))
+    rows = edges_and_lines(samples, lines)
+    built = [traces.surface(points, u, w, name=name) if colour is None else _curved(f, points, u, w, colour, name)]
+    drawn = [
+        traces.parameter_lines(points, along="u", at=rows[1], width=1.5),
+        traces.parameter_lines(points, along="w", at=rows[1], width=1.5),
+        traces.parameter_lines(points, along="u", at=rows[0], width=5),
+        traces.parameter_lines(points, along="w", at=rows[0], width=5),
+    ]
+    built += [trace for trace in drawn if len(trace["x"])] + letters(points, "scene")
+    notes = [legend()]
+    if knots is not None:
+        built += _knot_lines(f, u, knots)
+        notes.append(coloured("━ knots", palette.KNOT))
+    if normals:
+        built[0]["opacity"] = 0.8  # a normal may point to the side that is turned away
+        built.append(_needles(f, samples, points, u))
+        notes.append(coloured("━ normals", palette.NORMAL))
+    if mark is not None:
+        place = _place(mark, 2)
+        label = f"(u, w) = ({place[0]:.3g}, {place[1]:.3g})"
+        here = sample(f, place[:1], place[1:])[0]
+        built.append(traces.marks(here, colour=palette.MARK, size=6, symbol="diamond", name=label))
+        notes.append(coloured(f"◆ {label}", palette.MARK))
+    holes = int(np.isnan(points).any(axis=-1).sum())
+    alt = f"A 3-D picture of the surface {name} with its parameter lines."
+    figure = layout(height=HEIGHT, title=title, alt=alt)
+    if holes:
+        said = f"{holes} of {samples * samples} points are not finite"
+        notes.append(said)
+        figure["meta"]["alt"] += f" {said}."
+    domain = (0.0, 1.0)
+    if square:
+        domain = (0.0, 0.62)
+        more, axes = parameter_square(rows[1], samples, knots=knots, mark=mark, domain=(0.68, 0.98))
+        built += more
+        figure |= axes
+    figure |= {
+        "scene": scene(Box.around(points), domain),
+        "annotations": [word("&nbsp;&nbsp;&nbsp;".join(notes), 0.5, -0.03, yanchor="top")],
+    }
+    return {"data": built, "layout": figure, "points": points}
+
+
+def _curve(f: Callable[..., Any], title: str | None, samples: int, mark: Sequence[float] | None) -> dict[str, Any]:
+    u = np.linspace(0.0, 1.0, min(4 * (samples - 1) + 1, 481))
+    points = sample(f, u)
+    name = short(_name_of(f))
+    eighths = points[:: max((len(u) - 1) // 8, 1)]
+    built = [
+        traces.curve(points, u, colour=palette.U, name=name),
+        traces.marks(eighths[1:], colour=palette.U, size=3, symbol="circle", name="every eighth of u"),
+        traces.marks(points[:1], colour=palette.INK, size=5, symbol="circle", name="u = 0"),
+    ]
+    notes = [legend(("u",)), "large dot: u = 0, small dots: every eighth"]
+    if mark is not None:
+        place = _place(mark, 1)
+        label = f"u = {place[0]:.3g}"
+        built.append(traces.marks(sample(f, place), colour=palette.MARK, size=6, symbol="diamond", name=label))
+        notes.append(coloured(f"◆ {label}", palette.MARK))
+    figure = layout(height=HEIGHT, title=title, alt=f"A 3-D picture of the curve {name}, with dots at every eighth of u.")
+    figure |= {
+        "scene": scene(Box.around(points)),
+        "annotations": [word("&nbsp;&nbsp;&nbsp;".join(notes), 0.5, -0.03, yanchor="top")],
+    }
+    return {"data": built, "layout": figure, "points": points}
+
+
+def _solid(f: Callable[..., Any], title: str | None, samples: int) -> dict[str, Any]:
+    """The six faces of f(u, v, w): on each, one parameter is 0 or 1 and the other two run."""
+    t, ends = np.linspace(0.0, 1.0, samples), np.array([0.0, 1.0])
+    faces = []
+    colours = {"u": palette.U, "v": palette.NORMAL, "w": palette.W}
+    for held, axis in enumerate("uvw"):
+        axes = [t, t, t]
+        axes[held] = ends
+        both = np.moveaxis(sample(f, *axes), held, 0)
+        faces += [(f"{axis} = {end}", "uvw".replace(axis, ""), both[end]) for end in (0, 1)]
+    built: list[dict[str, Any]] = []
+    for name, running, points in faces:
+        built.append(traces.surface(points, t, t, name=name, letters=(running[0], running[1])))
+        inner = edges_and_lines(samples, 4)[1]
+        lift = traces.LIFT * size_of(points) * grid_normals(points)
+        for side in (points + lift, points - lift):
+            for letter, way in ((running[0], side.transpose(1, 0, 2)), (running[1], side)):
+                built.append(traces.line([way[i] for i in inner], colour=colours[letter], width=1.5, name=name))
+                built.append(traces.line([way[i] for i in (0, -1)], colour=colours[letter], width=4, name=name))
+    every = np.concatenate([points.reshape(-1, 3) for *_, points in faces])
+    runs = [coloured(f"━ along {letter}", colour) for letter, colour in colours.items()]
+    figure = layout(height=HEIGHT, title=title, alt=f"A 3-D picture of the solid {short(_name_of(f))}: its six faces.")
+    figure |= {
+        "scene": scene(Box.around(every)),
+        "annotations": [word("&nbsp;&nbsp;&nbsp;".join(runs), 0.5, -0.03, yanchor="top")],
+    }
+    return {"data": built, "layout": figure, "points": every}
+
+
+def _against(
+    f: Callable[..., Any], g: Callable[..., Any], count: int, names: tuple[str, str], title: str | None, samples: int
+) -> dict[str, Any]:
+    if count == 3:
+        raise GeometryError("solids are compared face by face: view(face, against=other_face)")
+    samples = samples if count == 1 else min(samples, 49)
+    axes = [np.linspace(0.0, 1.0, samples)] * count
+    return comparison(axes, sample(g, *axes), sample(f, *axes), names=names, title=title)
+
+
+def _curved(f: Callable[..., Any], points: Array, u: Array, w: Array, colour: str, name: str) -> dict[str, Any]:
+    if colour not in COLOURS:
+        raise GeometryError(f"colour must be one of {', '.join(map(repr, COLOURS))}; got {colour!r}")
+    curvature = getattr(f, "curvature", None)
+    if curvature is None:
+        raise GeometryError(f"colour={colour!r} needs a surface that has .curvature(u, w); {name} has none")
+    values = np.broadcast_to(np.asarray(getattr(curvature(u[:, None], w[None, :]), colour), dtype=float), points.shape[:2])
+    values = np.where(np.isfinite(values), values, np.nan)
+    # A few extreme values, at an apex say, must not wash out all others: the bar ends at the 2nd and 98th percentile.
+    finite = np.abs(values[np.isfinite(values)])
+    top = float(np.percentile(finite, 98)) if finite.size else 1.0
+    bar = {
+        "title": {"text": f"{colour}<br>curvature", "font": {"size": 12}}, "thickness": 12, "len": 0.78, "x": 0.93,
+        "outlinewidth": 0, "tickfont": {"size": 11}, "nticks": 6, "tickformat": ".3~g",
+    }  # fmt: skip
+    limits = (-top, top) if top > 0 else (-1.0, 1.0)
+    return traces.surface(
+        points, u, w, colour=values, bar=bar, scale=palette.SIGNED, limits=limits, says=f"{colour} curvature", name=name
+    )
+
+
+def _needles(f: Callable[..., Any], samples: int, points: Array, u: Array) -> dict[str, Any]:
+    picked = np.unique(np.linspace(0, samples - 1, min(NORMALS, samples)).round().astype(int))
+    own = getattr(f, "normal", None)
+    if own is None:
+        directions = grid_normals(points)[np.ix_(picked, picked)]
+    else:
+        directions = np.asarray(own(u[picked][:, None], u[picked][None, :]), dtype=float)
+        directions = np.broadcast_to(directions, (len(picked), len(picked), 3))
+    return traces.normals(points[np.ix_(picked, picked)], directions, 0.09 * size_of(points))
+
+
+def _knot_lines(f: Callable[..., Any], t: Array, knots: Sequence[ArrayLike]) -> list[dict[str, Any]]:
+    if len(knots) != 2:
+        raise ShapeError(f"knots must be two lists, values of u and values of w; got {len(knots)}")
+    at_u, at_w = (np.unique(np.asarray(values, dtype=float)) for values in knots)
+    for values in (at_u, at_w):
+        if not ((values >= 0) & (values <= 1)).all():
+            raise GeometryError("knots must be given as parameters in [0, 1]; stretch them onto it first")
+    across = [
+        *(list(sample(f, at_u, t)) if len(at_u) else []),
+        *(list(sample(f, t, at_w).transpose(1, 0, 2)) if len(at_w) else []),
+    ]
+    return [traces.line(across, colour=palette.KNOT, width=6, name="knots")] if across else []
+
+
+def _extra(net: ArrayLike | None, curves: Mapping[str, Any] | None, samples: int) -> list[dict[str, Any]]:
+    drawn: list[dict[str, Any]] = []
+    if net is not None:
+        points = np.asarray(net, dtype=float)
+        if points.ndim not in (2, 3) or points.shape[-1] != 3:
+            raise ShapeError(f"net must have shape (m, n, 3), or (m, 3) for a polygon; got {points.shape}", got=points.shape)
+        drawn += traces.net(points)
+    for name, one in (curves or {}).items():
+        if callable(one):
+            t = np.linspace(0.0, 1.0, samples)
+            drawn.append(traces.curve(sample(one, t), t, colour=palette.CURVE, name=short(name)))
+            continue
+        points = np.asarray(one, dtype=float).reshape(-1, 3)
+        if len(points) == 1:
+            drawn.append(
+                traces.marks(points, colour=palette.CURVE, size=5, symbol="circle", name=short(name), text=[short(name)])
+            )
+        else:
+            drawn.append(traces.curve(points, np.linspace(0, 1, len(points)), colour=palette.CURVE, name=short(name)))
+    return drawn
+
+
+def _place(mark: Sequence[float], count: int) -> Array:
+    place = np.atleast_1d(np.asarray(mark, dtype=float))
+    if place.shape != (count,) or not ((place >= 0) & (place <= 1)).all():
+        wanted = "(u, w)" if count == 2 else "u"
+        raise GeometryError(f"mark must be {wanted} in [0, 1]; got {mark!r}")
+    return place
+
+
+def _name_of(f: Callable[..., Any]) -> str:
+    name = getattr(f, "__name__", type(f).__name__)
+    return "f" if name == "<lambda>" else str(name)
+
+
+def _figure(built: dict[str, Any]) -> Figure:
+    import plotly.graph_objects as go
+    import plotly.io as pio
+
+    # The notebook renderer takes its configuration from here; without it plotly.js offers to upload the figure.
+    renderer = pio.renderers["plotly_mimetype"]
+    renderer.config = {**(renderer.config or {}), **palette.CONFIG}
+    return go.Figure(built["data"], built["layout"])
