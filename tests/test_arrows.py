@@ -13,7 +13,7 @@ LIBRARY = {
     "frozen": ("errors",),
     "checks": ("errors",),
     "transform": ("checks", "frozen"),
-    "knots": ("checks",),
+    "knots": ("checks", "frozen"),
     "quadrature": ("checks",),
     "basis": ("knots",),
     "differential": ("basis", "transform"),

@@ -9,11 +9,16 @@ from typing import Any
 _NAMES = {
     # curves
     "Arc": "curves.arc",
+    "BSplineCurve": "curves.bspline",
     "BezierCurve": "curves.bezier",
     "Circle": "curves.arc",
+    "Conic": "curves.conic",
     "Curve": "curves.curve",
     "FunctionCurve": "curves.function",
+    "HermiteCurve": "curves.hermite",
     "Line": "curves.line",
+    "NurbsCurve": "curves.bspline",
+    "PointCurve": "curves.point",
     # known forms
     "Cone": "surfaces.known",
     "Cylinder": "surfaces.known",

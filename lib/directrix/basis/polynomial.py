@@ -8,7 +8,6 @@ from __future__ import annotations
 from math import comb, perm
 
 import numpy as np
-from numpy.polynomial import polynomial
 
 from directrix.checks import Array
 
@@ -85,24 +84,22 @@ def lagrange(nodes: Array, t: Array, derivative: int = 0) -> Array:
     """The Lagrange polynomials L_i over the nodes, L_i(t_j) = 1 if i = j, else 0, or their derivatives.
 
     L_i(t) = prod over k != i of (t - t_k) / (t_i - t_k) (Davis, Interpolation and Approximation, section 2.5).
-    Values are products of the factors; a derivative is a sum over which factors are left out, taken by polynomials in
-    t - 1/2, which keeps the usual few nodes accurate; beyond about 20 nodes interpolation itself loses digits.
+    A product is differentiated factor by factor, (f (t - t_k))^(j) = f^(j) (t - t_k) + j f^(j-1), which keeps all digits that
+    interpolation itself keeps: equally spaced nodes lose about one digit for every three beyond ten.
 
     Examples
     --------
     >>> lagrange(np.array([0.0, 0.5, 1.0]), np.array([0.5, 0.25])).tolist()
     [[0.0, 1.0, 0.0], [0.375, 0.75, -0.125]]
     """
-    t, count = np.asarray(t, dtype=np.float64), len(nodes)
-    result = np.empty((*t.shape, count))
-    for i in range(count):
-        others = np.delete(nodes, i)
-        scale = np.prod(nodes[i] - others)
-        if derivative == 0:
-            result[..., i] = np.prod(t[..., None] - others, axis=-1) / scale + 0.0  # no -0.0
-        else:
-            factors = polynomial.polyfromroots(others - 0.5)
-            result[..., i] = polynomial.polyval(t - 0.5, polynomial.polyder(factors, derivative)) / scale
+    t = np.asarray(t, dtype=np.float64)
+    result = np.empty((*t.shape, len(nodes)))
+    for i, node in enumerate(nodes):
+        product = [np.ones(t.shape), *(np.zeros(t.shape) for _ in range(derivative))]
+        for other in np.delete(nodes, i):
+            for j in range(derivative, -1, -1):
+                product[j] = product[j] * (t - other) / (node - other) + (j * product[j - 1] / (node - other) if j else 0.0)
+        result[..., i] = product[derivative]
     return result
 
 
