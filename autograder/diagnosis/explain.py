@@ -1,0 +1,456 @@
+"""What a learner reads: what is right, what is wrong, where, and one thing to look at, from the findings.
+
+Only public data are spoken of with names, numbers and places; of hidden data no more than that there are some.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from autograder import messages
+from autograder.comparison import values as value_rungs
+from autograder.comparison.answers import Answer, Numbers, Raised, Several, Word
+from autograder.comparison.gates import Gate, Trouble, error_gate
+from autograder.comparison.maps import Sampled, Shifted
+from autograder.comparison.symmetry import Symmetry
+from autograder.comparison.target import Target
+from autograder.diagnosis.ladder import Finding, Recognised, common
+from autograder.diagnosis.places import AXES, Localised, coordinate_fact, localise
+from autograder.exercise import Exercise
+from autograder.messages import listing, number, place, say, written
+from autograder.result import Tier
+
+Parts = list[tuple[str, str]]
+# Look-texts of gates that are not called like their gate.
+LOOKS = {
+    "finite.corner": "look.finite",
+    "finite.edges": "look.finite",
+    "finite.inside": "look.finite",
+    "finite.value": "look.finite",
+    "pointwise.own_parameters": "look.own_parameters",
+    "repeat.other": "look.repeat",
+    "repeat.raised": "look.repeat",
+}
+
+
+class Explanation:
+    """The parts of one verdict's message. ``shown`` are the findings on public data, ``hidden`` the others."""
+
+    def __init__(
+        self, shown: Sequence[Finding], hidden: Sequence[Finding], tier: Tier, recognised: Recognised | None = None
+    ) -> None:
+        self.shown = shown
+        self.hidden = hidden
+        self.tier = tier
+        self.recognised = recognised
+        self.exercise: Exercise = shown[0].target.exercise
+        self.noun = say(f"noun.{'surface' if self.exercise.judged_as else self.exercise.kind}")
+        self.wrong = [f for f in shown if not f.right]
+        self.troubles = next((f.gated.troubles for f in shown if f.gated.troubles), ())
+        if not self.troubles:
+            self.troubles = next((f.gated.troubles for f in hidden if f.gated.troubles), ())
+        self.worst = worst_finding(shown)
+
+    def parts(self) -> Parts:
+        """The parts in order."""
+        if self.tier == "identical":
+            return self._all_right()
+        if not self.wrong and any(not f.right for f in self.hidden):
+            return self._hidden_only()
+        stopped = next((f.gated.stopped for f in self.wrong if f.tier == self.tier and f.gated.stopped), None)
+        if stopped is not None and self.recognised is None:
+            return [*self._right_sets(), *self._gate(stopped, next(f for f in self.wrong if f.gated.stopped is stopped))]
+        if self.tier == "shape" and self.troubles:
+            return [("right", say("right.points")), *self._shape()]
+        body = self._map() if self.worst.sampled is not None else self._value()
+        return [*body, *(self._shape() if self.troubles else [])]
+
+    # --- right
+
+    def _all_right(self) -> Parts:
+        sets = len(self.shown)
+        one = "_one" if sets == 1 else ""
+        f = next((f.sampled for f in self.shown if f.sampled is not None), None)
+        if f is None:
+            parts: Parts = [("right", say(f"right.value{one}", sets=sets))]
+        else:
+            parts = [("right", say(f"right.all{one}", noun=self.noun, count=len(f.indices), sets=sets))]
+        empty = next((f.gated.empty for f in self.shown if f.gated.empty), None)
+        if empty is not None:
+            parts.append(("look", say("look.empty", wanted=empty.facts["wanted"])))
+        return parts
+
+    def _hidden_only(self) -> Parts:
+        names = {f.target.name for f in self.hidden if not f.right}
+        parts: Parts = [("right", say("right.shown")), ("wrong", say("wrong.hidden", data=say("hidden")))]
+        if self.recognised is not None:
+            return [*parts, *self._mistake()]
+        if len(names) < len(self.hidden):
+            parts.append(("where", say("where.data", data=named(names))))
+        return [*parts, ("look", say("look.hidden"))]
+
+    def _right_sets(self) -> Parts:
+        right = [f.target for f in self.shown if f.right]
+        if not right or len(right) == len(self.shown):
+            return []
+        blind = [t.name for t in right if t.drawn.blind]
+        seeing = [t.name for t in right if not t.drawn.blind]
+        parts: Parts = [("right", say("right.sets", data=named(seeing)))] if seeing else []
+        if blind:
+            parts.append(("right", say("right.blind", data=named(blind))))
+        return parts
+
+    # --- gates
+
+    def _gate(self, gate: Gate, finding: Finding) -> Parts:
+        facts = {
+            **gate.facts,
+            "id": self.exercise.id,
+            "signature": self.exercise.signature,
+            "noun": self.noun,
+            "names": listing(self.exercise.parameters),
+            "data": named([finding.target.name]),
+            "place": place(self._names(), gate.where) if gate.where is not None else "",
+        }
+        parts: Parts = [("wrong", say(gate.key, **facts))]
+        if gate.facts.get("line"):
+            key = "where.line" if gate.facts.get("source") else "where.line_only"
+            parts.append(("where", say(key, **facts)))
+        elif gate.key != "error.stub" and gate.key != "error.missing":
+            parts.append(("where", say("where.data", data=self._described(finding.target))))
+        look = LOOKS.get(gate.key) or _look_of(gate.key, len(self._names()))
+        if look is not None:
+            parts.append(("look", say(look, **facts)))
+        return parts
+
+    def _shape(self) -> Parts:
+        """The forms of input that are not handled."""
+        parts: Parts = [("wrong", say(t.key, **t.facts)) for t in self.troubles]
+        handled = {"vector", "mesh", "scalar"} - {t.form for t in self.troubles}
+        if handled == {"scalar"} and all(t.key == "shape.raised" for t in self.troubles):
+            parts.append(("look", say("look.numbers_only")))
+        else:
+            look = _look_of(self.troubles[0].key, len(self._names())) or "look.shape"
+            parts.append(("look", say(look)))
+        return parts
+
+    # --- maps
+
+    def _map(self) -> Parts:
+        maps = [f.sampled for f in self.wrong if f.sampled is not None]
+        where = localise(maps)
+        f = self.worst.sampled
+        assert f is not None
+        parts = [*self._right_sets(), *self._right_places(where)]
+        if self.recognised is not None:
+            return [*parts, *self._mistake(), ("where", self._where(f))]
+        wrong, look = self._rung(where, maps, f)
+        return [*parts, *(("wrong", text) for text in wrong), ("where", self._where(f)), ("look", look)]
+
+    def _right_places(self, where: Localised) -> Parts:
+        if self.tier in ("relabelled", "other start", "close", "same set", "covered"):
+            return []
+        names = self._names()
+        right = [AXES[i] for i, fine in enumerate(where.coordinates[:3]) if fine]
+        if right:
+            return [("right", say("right.coordinates" if len(right) > 1 else "right.one_coordinate", names=listing(right)))]
+        sides = [f"{names[axis]} = {end}" for axis, end in where.sides]
+        corners = [f"({', '.join(names)}) = ({', '.join(map(str, corner))})" for corner in where.corners]
+        if len(names) == 1 and sides:
+            return [("right", say("right.ends") if len(sides) == 2 else say("right.end", names=sides[0]))]
+        thing = "face" if len(names) == 3 else "edge"
+        if len(sides) == 2 * len(names):
+            return [("right", say(f"right.{thing}s_all", count=len(sides)))]
+        if sides:
+            return [("right", say(f"right.{thing}s" if len(sides) > 1 else f"right.{thing}", names=listing(sides)))]
+        if len(corners) == where.all_corners:
+            return [("right", say("right.corners", count=len(corners)))]
+        if corners:
+            return [("right", say("right.corners_some" if len(corners) > 1 else "right.corner", names=listing(corners)))]
+        return []
+
+    def _mistake(self) -> Parts:
+        assert self.recognised is not None
+        key = "wrong.mistake_close" if self.recognised.close else "wrong.mistake"
+        mistake = self.recognised.mistake
+        text = say(key, noun=self.noun, mistake=spoken(mistake.id))
+        return [("wrong", text), ("look", mistake.hint)]
+
+    def _rung(self, where: Localised, maps: Sequence[Sampled], f: Sampled) -> tuple[list[str], str]:
+        """What is wrong on this rung, and what to look at."""
+        if self.tier == "relabelled":
+            return self._relabelled()
+        if self.tier == "other start":
+            shifted = next(f.shifted for f in self.wrong if f.shifted is not None)
+            start = place(self._names(), [0.0] * len(self._names()))
+            return [self._other_start(shifted)], say("look.other_start", place=start)
+        if self.tier == "close":
+            return [say("wrong.close", amount=messages.amount(f.worst))], say("look.close")
+        return self._different(where, maps, f)
+
+    def _relabelled(self) -> tuple[list[str], str]:
+        shared = common(self.wrong)
+        symmetry = shared[0] if shared else next(f.symmetries[0] for f in self.wrong if f.symmetries)
+        normal = ""
+        if len(symmetry.names) == 2:
+            normal = say("normal.flips" if symmetry.determinant < 0 else "normal.keeps")
+        text = say("wrong.relabelled", noun=self.noun, relabelled=relabelled(symmetry), normal=normal).strip()
+        if symmetry.name == "swap":
+            return [text], say("look.swap")
+        corner = [0.0] * len(symmetry.names)
+        return [text], say("look.relabelled", place=place(symmetry.names, corner))
+
+    def _other_start(self, shifted: Shifted) -> str:
+        names = self._names()
+        moved = [
+            say("shift.one", name=name, value=number(by, 3))
+            for name, by in zip(names, shifted.shift, strict=True)
+            if by is not None and min(by, 1 - by) > 1e-7
+        ]
+        also = shifted.symmetry.name != "id"
+        text = say("wrong.moved.relabelled", relabelled=relabelled(shifted.symmetry)) if also else ""
+        return say("wrong.other_start", noun=self.noun, shift=listing(moved), relabelled=text).strip()
+
+    def _different(self, where: Localised, maps: Sequence[Sampled], f: Sampled) -> tuple[list[str], str]:
+        if self.exercise.kind == "mask":
+            return self._mask(f)
+        names, away = self._names(), messages.amount(f.worst)
+        if where.unused:
+            unused = [names[i] for i in where.unused]
+            if len(unused) == len(names):
+                return [say("wrong.different", noun=self.noun, amount=away), say("fact.constant")], say(
+                    "look.unused", name=listing(unused)
+                )
+            text = " ".join(say("fact.unused", name=name) for name in unused)
+            return [say("wrong.different", noun=self.noun, amount=away), text], say("look.unused", name=listing(unused))
+        fact = coordinate_fact(maps)
+        if fact is not None:
+            facts = {k: number(v, 6) if isinstance(v, float) else v for k, v in fact.facts.items()}
+            look = (
+                say("look.scale")
+                if "factor" in facts
+                else say("look.coordinate", names=facts.get("name") or facts.get("yours", ""))
+            )
+            if fact.key == "fact.coordinate_sign":
+                look = say("look.mirrored")
+            return [say(fact.key, **facts)], look
+        wrong = [AXES[i] for i, fine in enumerate(where.coordinates[:3]) if not fine]
+        if 0 < len(wrong) < len(where.coordinates):
+            key = "fact.coordinates_wrong" if len(wrong) > 1 else "fact.coordinate_wrong"
+            text = say("wrong.different", noun=self.noun, amount=away)
+            return [text, say(key, names=listing(wrong))], say("look.coordinate", names=listing(wrong))
+        if where.inside_only and len(names) > 1:
+            return [say("wrong.different_inside", amount=away)], say("look.inside")
+        if len(where.corners) == where.all_corners and not where.sides:
+            return [say("wrong.different_corners", amount=away)], say("look.corners")
+        if len(where.sides) == 1:
+            axis, end = where.sides[0]
+            look = say("look.edge", name=names[axis], start=end, end=1 - end)
+            return [say("wrong.different", noun=self.noun, amount=away)], look
+        return [say("wrong.different", noun=self.noun, amount=away)], say("look.worst")
+
+    def _mask(self, f: Sampled) -> tuple[list[str], str]:
+        bad = f.deviations > f.target.allowed
+        i = int(np.flatnonzero(bad)[0])
+        facts = {"yours": spoken_truth(f.values[i]), "expected": spoken_truth(f.expected[i])}
+        return [say("wrong.mask", **facts, count=int(bad.sum()), total=len(bad))], say("look.value")
+
+    def _where(self, f: Sampled) -> str:
+        i = worst_index(f)
+        yours, expected = pair_written(f, i)
+        if f.values.ndim == 1:
+            yours, expected = spoken_truth(f.values[i]), spoken_truth(f.expected[i])
+        at, data = place(self._names(), f.points[i]), self._described(f.target)
+        key = "where.value" if f.values.ndim == 1 else "where.point"
+        return say(key, place=at, data=data, yours=yours, expected=expected)
+
+    # --- values
+
+    def _value(self) -> Parts:
+        finding = self.worst
+        answer, expected = finding.gated.answer, finding.target.expected
+        assert answer is not None
+        parts = self._right_sets()
+        data = self._described(finding.target)
+        if self.recognised is not None:
+            return [*parts, *self._mistake(), *value_where(finding, data)]
+        if isinstance(expected, Raised):
+            return [*parts, *self._no_error(answer, data)]
+        if self.tier == "close":
+            f = value_rungs.worst(finding.target, answer, expected)
+            away = messages.amount(f.relative if f is not None else 0.0)
+            return [
+                *parts,
+                ("wrong", say("wrong.close", amount=away)),
+                *value_where(finding, data),
+                ("look", say("look.close")),
+            ]
+        return [*parts, *value_wrong(finding, answer, expected), *value_where(finding, data), ("look", say("look.value"))]
+
+    def _no_error(self, answer: Answer, data: str) -> Parts:
+        look = ("look", say("look.error_expected"))
+        if isinstance(answer, Raised):
+            facts = error_gate(answer).facts
+            return [("wrong", say("wrong.other_error", **facts)), ("where", say("where.data", data=data)), look]
+        text = say("wrong.no_error", yours=spoken_answer(answer))
+        return [("wrong", text), ("where", say("where.data", data=data)), look]
+
+    # --- words
+
+    def _names(self) -> tuple[str, ...]:
+        return self.shown[0].target.names
+
+    def _described(self, target: Target) -> str:
+        return say("data.one", names=described(target))
+
+
+def _look_of(key: str, dimension: int) -> str | None:
+    """The look-text of a gate or of a trouble with shapes."""
+    name = "look." + key.split(".", 1)[1]
+    if name in messages.TEXT:
+        return name
+    if key.startswith("shape."):
+        return "look.shape" if dimension > 1 else "look.shape_curve"
+    return "look.pointwise" if key.startswith("pointwise.") else None
+
+
+def worst_finding(findings: Sequence[Finding]) -> Finding:
+    """The finding to show: the largest deviation, data that see before blind ones, maps before what has no numbers."""
+
+    def rank(f: Finding) -> tuple[bool, bool, float]:
+        deviation = f.sampled.worst if f.sampled is not None and np.isfinite(f.sampled.values).all() else 0.0
+        return not f.right, not f.target.drawn.blind, deviation
+
+    return max(findings, key=rank)
+
+
+def worst_index(f: Sampled) -> int:
+    """The sample that is furthest off."""
+    return int(np.where(np.isfinite(f.deviations), f.deviations, np.inf).argmax())
+
+
+def pair_written(f: Sampled, i: int) -> tuple[str, str]:
+    """The learner's point and the right one, with so many digits that they differ."""
+    size = float(np.abs(f.expected[i]).max(initial=0.0)) or f.target.size
+    digits = messages.digits_for(float(f.deviations[i]), size)
+    return written(f.values[i], digits), written(f.expected[i], digits)
+
+
+def value_wrong(finding: Finding, answer: Answer, expected: Answer) -> Parts:
+    """What is wrong with a value."""
+    if isinstance(expected, Several):
+        items = value_rungs.as_items(answer, len(expected.items))
+        if items is None:
+            count = len(answer.items) if isinstance(answer, Several) else 1
+            return [("wrong", say("wrong.tuple", expected=len(expected.items), yours=count))]
+        k = finding.facts.get("item")
+        if k is None:
+            return [("wrong", say("wrong.value"))]
+        parts: Parts = [("wrong", say("wrong.item", item=k))]
+        if finding.pattern is not None:
+            return [*parts, ("wrong", pattern_text(finding))]
+        return parts
+    if isinstance(expected, Word):
+        return [("wrong", word_text(answer, expected, finding))]
+    if isinstance(answer, Word):
+        return [("wrong", say("wrong.not_number", yours=answer.text[:40]))]
+    if isinstance(expected, Numbers) and expected.was == "bool" and expected.values.ndim == 0 and isinstance(answer, Numbers):
+        facts = {"yours": spoken_answer(answer, "bool"), "expected": spoken_answer(expected)}
+        return [("wrong", say("wrong.yes_no", **facts))]
+    if finding.pattern is not None:
+        return [("wrong", pattern_text(finding))]
+    return [("wrong", say("wrong.value"))]
+
+
+def word_text(answer: Answer, expected: Word, finding: Finding) -> str:
+    """What is wrong with a word."""
+    if not isinstance(answer, Word):
+        return say("wrong.not_word", yours=spoken_answer(answer))
+    if answer.text.strip().lower() == expected.text.strip().lower():
+        return say("wrong.word_case", yours=answer.text[:40])
+    return say("wrong.word", yours=answer.text[:40])
+
+
+def pattern_text(finding: Finding) -> str:
+    """A pattern in words."""
+    assert finding.pattern is not None
+    facts = {k: number(v, 6) if isinstance(v, float) else v for k, v in finding.pattern.facts.items()}
+    return say(finding.pattern.key, **facts)
+
+
+def value_where(finding: Finding, data: str) -> Parts:
+    """The entry that is furthest off, with both entries."""
+    answer, expected = finding.gated.answer, finding.target.expected
+    if answer is None or isinstance(expected, Raised):
+        return []
+    if isinstance(expected, Word) or isinstance(answer, Word):
+        return [("where", say("where.word", data=data, yours=spoken_answer(answer)))]
+    entry = value_rungs.worst(finding.target, answer, expected)
+    if entry is None:
+        return [("where", say("where.data", data=data))]
+    if isinstance(expected, Numbers) and expected.was == "bool":
+        yours, right = spoken_truth(entry.yours), spoken_truth(entry.expected)
+    else:
+        digits = messages.digits_for(abs(entry.yours - entry.expected), abs(entry.expected) or 1.0)
+        yours, right = number(entry.yours, digits), number(entry.expected, digits)
+    at = str(list(entry.index)) if entry.index else ""
+    if entry.item is not None:
+        at = say("where.item", item=entry.item, place=at).rstrip(", ")
+    key = "where.entry" if at else "where.number"
+    return [("where", say(key, data=data, place=at, yours=yours, expected=right))]
+
+
+def spoken_truth(value: Any) -> str:
+    """True or False for the number of a mask."""
+    return str(bool(value)) if float(value) in (0.0, 1.0) else number(float(value))
+
+
+def spoken_answer(answer: Answer, was: str | None = None) -> str:
+    """An answer in a few words."""
+    if isinstance(answer, Numbers):
+        if answer.values.ndim == 0:
+            truth = (was or answer.was) == "bool"
+            return spoken_truth(answer.values) if truth else number(float(answer.values), 6)
+        return f"an array of shape {answer.values.shape}" if answer.values.size > 4 else written(answer.values)
+    if isinstance(answer, Word):
+        return repr(answer.text[:40])
+    if isinstance(answer, Several):
+        return "(" + ", ".join(spoken_answer(item) for item in answer.items[:4]) + ")"
+    return "None"
+
+
+def relabelled(symmetry: Symmetry) -> str:
+    """A relabelling in words."""
+    key = f"relabel.{symmetry.name}"
+    if key in messages.TEXT:
+        return say(key)
+    return say("relabel.other", formula=symmetry.formula, names=", ".join(symmetry.names))
+
+
+def spoken(id: str) -> str:
+    """A mistake's id as words."""
+    return id.replace("_", " ")
+
+
+def named(names: Sequence[str] | set[str]) -> str:
+    """``the data set a``, ``the data sets a and b``."""
+    every = sorted(names) if isinstance(names, set) else list(names)
+    return say("data.one" if len(every) == 1 else "data.many", names=listing(every))
+
+
+def described(target: Target) -> str:
+    """A data set with those of its arguments that are short enough to read."""
+    shown = [
+        f"{name} = {repr(value) if isinstance(value, str) else written(value)}"
+        for name, value in target.drawn.arguments.items()
+        if isinstance(value, str | bool | int | float) or (isinstance(value, np.ndarray) and value.size <= 3)
+    ]
+    return say("data.with", name=target.name, arguments=", ".join(shown)) if shown else target.name
+
+
+def trouble_forms(troubles: Sequence[Trouble]) -> list[str]:
+    """The forms of input that are not handled, by name."""
+    return [t.form for t in troubles]
