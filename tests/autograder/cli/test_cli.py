@@ -1,0 +1,113 @@
+"""The command line: help with an example for every verb, exit codes 0, 1 and 2, and no traceback for a user's error."""
+
+import json
+import subprocess
+import sys
+
+import nbformat
+import pytest
+
+from autograder import authoring, catalogue
+from autograder.notebook import source
+
+VERBS = ["demo", "new", "release", "lab", "check", "grade", "feedback", "doctor"]
+
+
+def directrix(*arguments, cwd):
+    return subprocess.run(
+        [sys.executable, "-m", "autograder", *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=300
+    )
+
+
+def test_the_help_names_every_verb(tmp_path):
+    """One screen, each verb with what it does."""
+    result = directrix("--help", cwd=tmp_path)
+    assert result.returncode == 0
+    assert [verb for verb in VERBS if verb not in result.stdout] == []
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_has_help_with_an_example(verb, tmp_path):
+    """The example is a line that can be typed as it stands."""
+    result = directrix(verb, "--help", cwd=tmp_path)
+    assert result.returncode == 0
+    assert f"Example: directrix {verb}" in " ".join(result.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "says"),
+    [
+        (["grade"], 2, "Missing argument"),
+        (["no-such-verb"], 2, "No such command"),
+        (["grade", "A1"], 1, "nbgrader_config.py"),
+        (["feedback", "A1"], 1, "nbgrader_config.py"),
+        (["release", "A1"], 1, "is not a course"),
+        (["check", "nothing.ipynb"], 1, "no such notebook: nothing.ipynb"),
+        (["new", "course", "--assignment", "A99"], 1, "no assignment is called 'A99'; there are: A1"),
+    ],
+)
+def test_a_users_error_is_a_plain_line_and_an_exit_code(arguments, code, says, tmp_path):
+    """2 for wrong usage, 1 for what failed and was named; never a traceback."""
+    result = directrix(*arguments, cwd=tmp_path)
+    said = " ".join((result.stderr + result.stdout).split())
+    assert result.returncode == code, said
+    assert says in said
+    assert "Traceback" not in said
+
+
+def test_new_makes_a_course_and_refuses_to_touch_a_folder_that_is_not_empty(tmp_path):
+    """The secret is the instructor's alone; nothing is half-written."""
+    made = directrix("new", "course", "--assignment", "A1", cwd=tmp_path)
+    assert made.returncode == 0, made.stderr
+    course = tmp_path / "course"
+    assert (course / ".directrix" / "secret").stat().st_mode & 0o077 == 0
+    assert [path.name for path in (course / "source" / "A1").iterdir()] == ["known-forms.ipynb"]
+    again = directrix("new", "course", cwd=tmp_path)
+    assert again.returncode == 1
+    assert "is not empty" in again.stderr
+    assert not (course / "source" / "A2").exists()
+
+
+def test_a_workbook_has_every_notebook_and_chapter_and_keeps_the_readers_work(tmp_path):
+    """Opening it a second time adds what is new and overwrites nothing."""
+    first = authoring.workbook(tmp_path)
+    assert len([path for path in first if path.parent.name == "course"]) >= 1
+    assert {path.parent.name for path in first} >= {"A1", "A2", "A3"}
+    mine = tmp_path / "A1" / "known-forms.ipynb"
+    mine.write_text("my own work")
+    assert authoring.workbook(tmp_path) == []
+    assert mine.read_text() == "my own work"
+
+
+@pytest.fixture(scope="module")
+def a1():
+    return catalogue.shipped().assignment("A1")
+
+
+def test_check_runs_ones_own_notebook_and_counts_its_points(tmp_path, a1):
+    """Solved, it exits 0; as released, 1, and every exercise is named with 0 points."""
+    solved = source.build(a1, solutions=True)
+    nbformat.write(solved, tmp_path / "solved.ipynb")
+    nbformat.write(source.release(solved), tmp_path / "released.ipynb")
+    right = directrix("check", "solved.ipynb", "--json", cwd=tmp_path)
+    assert right.returncode == 0, right.stdout + right.stderr
+    (report,) = json.loads(right.stdout)
+    assert {c["exercise"]: c["points"] for c in report["checks"]} == {e.id: e.points for e in a1.exercises.values()}
+    stubs = directrix("check", "released.ipynb", "--json", cwd=tmp_path)
+    assert stubs.returncode == 1
+    (report,) = json.loads(stubs.stdout)
+    assert [c["points"] for c in report["checks"]] == [0.0] * len(a1.exercises)
+    assert all(c["text"] for c in report["checks"])
+
+
+def test_check_says_where_it_stopped(tmp_path, a1):
+    """An endless loop stops the run with a sentence, and what was checked before it is kept."""
+    notebook = source.build(a1, solutions=True)
+    where = next(i for i, cell in enumerate(notebook.cells) if cell.metadata.get("nbgrader", {}).get("grade_id") == "frustum")
+    notebook.cells[where].source = "while True:\n    pass"
+    nbformat.write(notebook, tmp_path / "loop.ipynb")
+    result = directrix("check", "loop.ipynb", "--timeout", "5", "--json", cwd=tmp_path)
+    assert result.returncode == 1
+    (report,) = json.loads(result.stdout)
+    assert "more than 5 seconds" in report["stopped"]
+    assert report["checks"][0]["points"] == a1.exercises["cylinder"].points
