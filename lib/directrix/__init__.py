@@ -26,6 +26,26 @@ _NAMES = {
     "Sphere": "surfaces.known",
     "Torus": "surfaces.known",
     "Triangle": "surfaces.plane",
+    # freeform
+    "AlgebraicPatch": "surfaces.algebraic",
+    "BezierPatch": "surfaces.bezier",
+    "HermitePatch": "surfaces.hermite",
+    "PointPatch": "surfaces.point",
+    # boundary
+    "Bilinear": "surfaces.boundary",
+    "Coons": "surfaces.coons",
+    "Ferguson": "surfaces.hermite",
+    "Ruled": "surfaces.boundary",
+    "coons_net": "surfaces.coons",
+    "coons_twists": "surfaces.hermite",
+    # implicit
+    "Quadric": "quadric",
+    # inspection
+    "conicity": "inspection",
+    "cylindricity": "inspection",
+    "flatness": "inspection",
+    "sphericity": "inspection",
+    "toricity": "inspection",
     # swept
     "CircularSweep": "surfaces.revolution",
     "LinearSweep": "surfaces.extrusion",

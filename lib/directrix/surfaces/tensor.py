@@ -1,0 +1,92 @@
+"""Tensor products: S(u, w) = Σ_i Σ_j f_i(u) g_j(w) c_ij, the arithmetic that all patches with a net share.
+
+Coordinates are kept apart, as planes c[0], c[1], c[2] of shape (m, n): on a grid of parameters each derivative is then two
+matrix products, F c Gᵀ, two to three times faster than the same sums over an array (m, n, 3). The answer is a view of the
+planes with the coordinates moved last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from directrix import checks
+from directrix.checks import Array
+from directrix.errors import OrderError
+from directrix.surfaces.surface import Orders, Surface
+
+
+def planes(net: Array) -> Array:
+    """A net (m, n, d) as contiguous planes (d, m, n)."""
+    return np.ascontiguousarray(np.moveaxis(net, -1, 0))
+
+
+def on_grid(coefficients: Array, rows: dict[int, Array], columns: dict[int, Array], orders: Orders) -> list[Array]:
+    """Derivatives on a grid, as planes.
+
+    Parameters
+    ----------
+    coefficients : (d, m, n) planes
+    rows : order nu -> (p, m) values of the nu-th derivatives of the functions of u
+    columns : order nw -> (q, n), the same for w
+    orders : pairs (nu, nw)
+
+    Returns
+    -------
+    list of (d, p, q) arrays, one for each pair
+    """
+    half = {nu: values @ coefficients for nu, values in rows.items()}
+    return [half[nu] @ columns[nw].T for nu, nw in orders]
+
+
+def at_points(net: Array, rows: Array, columns: Array) -> Array:
+    """The same sum point by point: rows (..., m) and columns (..., n) that broadcast, net (m, n, d); result (..., d)."""
+    m, n, d = net.shape
+    half = (rows @ net.reshape(m, n * d)).reshape(*rows.shape[:-1], n, d)
+    return np.asarray((columns[..., None, :] @ half)[..., 0, :])
+
+
+class TensorPatch(Surface):
+    """A patch that is one tensor product of smooth functions: algebraic, Hermite, point and Bezier form."""
+
+    def _net(self) -> Array:
+        """The coefficients c_ij, shape (m, n, 3)."""
+        raise NotImplementedError
+
+    def _functions_u(self, u: Array, order: int) -> Array:
+        """The functions f_i, or their derivatives, at u: shape u.shape + (m,)."""
+        raise NotImplementedError
+
+    def _functions_w(self, w: Array, order: int) -> Array:
+        """The functions g_j, or their derivatives, at w: shape w.shape + (n,)."""
+        raise NotImplementedError
+
+    @property
+    def degrees(self) -> tuple[int, int]:
+        """Degrees in u and in w: one less than the numbers of coefficients. The orders are one more."""
+        m, n, _ = self._net().shape
+        return m - 1, n - 1
+
+    def _derivative(self, u: Array, w: Array, nu: int, nw: int) -> Array:
+        return at_points(self._net(), self._functions_u(u, nu), self._functions_w(w, nw))
+
+    def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        rows = {nu: self._functions_u(u, nu) for nu in {nu for nu, _ in orders}}
+        columns = {nw: self._functions_w(w, nw) for nw in {nw for _, nw in orders}}
+        return [at_points(self._net(), rows[nu], columns[nw]) for nu, nw in orders]
+
+    def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        rows = {nu: self._functions_u(u, nu) for nu in {nu for nu, _ in orders}}
+        columns = {nw: self._functions_w(w, nw) for nw in {nw for _, nw in orders}}
+        return [np.moveaxis(value, 0, -1) for value in on_grid(planes(self._net()), rows, columns, orders)]
+
+
+def window(u0: float, u1: float, w0: float, w1: float) -> tuple[float, float, float, float]:
+    """The corners of a part of the parameter square, checked: inside it, and not empty either way."""
+    ends = {"u0": u0, "u1": u1, "w0": w0, "w1": w1}
+    u0, u1, w0, w1 = (float(checks.parameter(name, checks.number(name, end))) for name, end in ends.items())
+    for name, start, end in (("u", u0, u1), ("w", w0, w1)):
+        if start == end:
+            raise OrderError(f"{name}0 and {name}1 must differ; both are {start:g}, which leaves a curve and no patch.")
+    return u0, u1, w0, w1
