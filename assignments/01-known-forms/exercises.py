@@ -35,7 +35,7 @@ def cylinder(u, w, r, h):
 
     Returns the points, shape of u and w together + (3,), in the unit of r and h.
     """
-    return points(r * np.cos(2 * np.pi * u), r * np.sin(2 * np.pi * u), h * w)
+    return dx.Cylinder(r, h)(u, w)
 
 
 @cylinder.data
@@ -74,7 +74,7 @@ def _(u, w, r, h):
 
 @cylinder.mistake("minus_h", credit=0.5)
 def _(u, w, r, h):
-    """This is the lecture's *other* cylinder: the same radius, height and axis, grown in the opposite direction. Those three
+    """You have the lecture's *other* cylinder: the same radius, height and axis, grown in the opposite direction. Those three
     words do not fix the place; the statement does. At which z does it ask for the edge w = 1?"""
     return points(r * np.cos(2 * np.pi * u), r * np.sin(2 * np.pi * u), -h * w)
 
@@ -494,7 +494,7 @@ def _(R, r):
 
 @torus_class.mistake("reversed", credit=0.25)
 def _(R, r):
-    """Ring and spindle are exchanged. Think of a bicycle tyre: which is larger, the distance from the hub to the middle of the
+    """You exchanged ring and spindle. Think of a bicycle tyre: which is larger, the distance from the hub to the middle of the
     tyre or the thickness of the tyre?"""
     _must_be_a_torus(R, r)
     if R == 0:

@@ -525,8 +525,8 @@ def _(u, w, p1, p2, p3):
 
 @triangle_patch.mistake("from_origin", credit=0.5)
 def _(u, w, p1, p2, p3):
-    """The right triangle in the wrong place: it starts in the origin instead of p1. The vectors from p1 tell how far to go; from
-    where?"""
+    """The right triangle in the wrong place: yours starts in the origin instead of p1. The vectors from p1 tell how far to go;
+    from where?"""
     p1, p2, p3 = _vectors(p1, p2, p3)
     u, w = np.asarray(u), np.asarray(w)
     return _times(u * (1 - w), p2 - p1) + _times(w + 0 * u, p3 - p1)
@@ -534,8 +534,8 @@ def _(u, w, p1, p2, p3):
 
 @triangle_patch.mistake("tip_at_p1", credit=0.5)
 def _(u, w, p1, p2, p3):
-    """The right triangle, every point of it, but its lines run together in p1 and end on the edge from p2 to p3. Which corner
-    does the statement make of the edge w = 1, and what becomes of w = 0?"""
+    """The right triangle, every point of it, but your lines of constant u run together in p1 and end on the edge from p2 to p3.
+    Which corner does the statement make of the edge w = 1, and what becomes of w = 0?"""
     p1, p2, p3 = _vectors(p1, p2, p3)
     u, w = np.asarray(u), np.asarray(w)
     return p1 + _times((1 - u) * w, p2 - p1) + _times(u * w, p3 - p1)

@@ -463,7 +463,7 @@ def _(u, w, curve, alpha, angle):
 
 @revolve_xy_axis.mistake("wrong_sense", credit=0.5)
 def _(u, w, curve, alpha, angle):
-    """The right axis, the other sense of rotation. Take alpha = 0, where the axis is x: a quarter turn must bring +y to +z."""
+    """The right axis, the other sense of rotation. Take alpha = 0, where your axis is x: a quarter turn must bring +y to +z."""
     laid = about_z(*coordinates(curve, u), -alpha)
     return points(*about_z(*about_x(*laid, -angle * w), alpha))
 

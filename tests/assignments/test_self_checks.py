@@ -1,0 +1,193 @@
+"""The checks that need no reference, as the syllabus gives them to the learner: what must hold for the reference itself."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from autograder.catalogue import shipped
+
+U, W = np.linspace(0, 1, 13)[:, None], np.linspace(0, 1, 11)[None, :]
+lengths = st.floats(0.1, 10)
+numbers = st.floats(-5, 5)
+spots = st.tuples(numbers, numbers, numbers).map(np.array)
+directions = spots.filter(lambda v: np.linalg.norm(v) > 0.1)
+angles = st.floats(-7, 7)
+
+
+def reference(id):
+    return shipped().find(id).reference
+
+
+def near(actual, expected, scale=1.0):
+    """Equal to rounding: a few hundred units in the last place of the largest number involved."""
+    np.testing.assert_allclose(actual, np.broadcast_to(expected, np.shape(actual)), rtol=0, atol=1e-13 * max(scale, 1.0))
+
+
+def curve(t):
+    return np.stack([2 + t, 3 * t - 0.5, 0.7 - t**2], axis=-1)
+
+
+def distance_to_axis(points, point, axis):
+    v = points - point
+    k = axis / np.linalg.norm(axis)
+    return np.linalg.norm(v - (v @ k)[..., None] * k, axis=-1), v @ k
+
+
+@given(lengths, st.one_of(lengths, lengths.map(lambda h: -h)))
+def test_cylinder(r, h):
+    S = reference("cylinder")(U, W, r, h)
+    near(S[..., 0] ** 2 + S[..., 1] ** 2, r**2, 4 * r**2)
+    near(S[..., 2], h * W, 4 * abs(h))
+    near(reference("cylinder")(0.25, W[0], r, h), np.stack([0 * W[0], 0 * W[0] + r, h * W[0]], -1), 4 * max(r, abs(h)))
+
+
+@given(lengths, lengths, lengths)
+def test_frustum(r1, r2, h):
+    S = reference("frustum")(U, W, r1, r2, h)
+    near(np.hypot(S[..., 0], S[..., 1]), r1 + (r2 - r1) * S[..., 2] / h, 10 * max(r1, r2))
+    near(reference("frustum")(U, W, r1, r1, h), reference("cylinder")(U, W, r1, h), 10 * max(r1, h))
+
+
+def test_the_apex_is_one_point():
+    for r1, r2, edge, z in [(2.0, 0.0, 1.0, 3.0), (0.0, 2.0, 0.0, 0.0)]:
+        near(reference("frustum")(U[:, 0], edge, r1, r2, 3.0), [0, 0, z], 4)
+
+
+@given(lengths)
+def test_sphere(r):
+    S = reference("sphere")(U, W, r)
+    near(np.linalg.norm(S, axis=-1), r, 4 * r)
+    near(S[0], [0, 0, -r], 4 * r)
+    near(S[-1], [0, 0, r], 4 * r)
+    assert (S[:, 0, 0] >= -1e-15 * r).all(), "the generatrix lies on the side x >= 0"
+
+
+@given(lengths, st.floats(1.0, 4.0))
+def test_torus(r, ratio):
+    R = ratio * r
+    S = reference("torus")(U, W, R, r)
+    near((np.hypot(S[..., 0], S[..., 1]) - R) ** 2 + S[..., 2] ** 2, r**2, 10 * (R + r) ** 2)
+    near(S[0], S[-1], 10 * (R + r))
+    near(S[:, 0], S[:, -1], 10 * (R + r))
+
+
+@given(lengths, lengths)
+def test_only_the_torus_without_R_is_a_sphere(R, r):
+    """The distance from the origin is constant where the class says sphere, and only there."""
+    for centre in (0.0, R):
+        distance = np.linalg.norm(reference("torus")(U, W, centre, r), axis=-1)
+        assert (np.ptp(distance) < 1e-12 * (centre + r)) == (reference("torus_class")(centre, r) == "sphere")
+
+
+@given(spots, directions)
+def test_direction_cosines(a, step):
+    *cosines, d = reference("direction_cosines")(a, a + step)
+    near(np.square(cosines).sum(), 1.0)
+    near(d * np.array(cosines), (a + step) - a, 10)
+
+
+@given(directions, numbers)
+def test_linear_sweep(direction, d):
+    S = reference("linear_sweep")(U, W, curve, direction, d)
+    near(S[:, 0], curve(U[:, 0]), 10)
+    near(np.linalg.norm(S[:, -1] - S[:, 0], axis=-1), abs(d), 10)
+
+
+@given(spots, directions, spots)
+def test_linear_sweep_by_two_points(a, step, shift):
+    """The two points may be moved together: only their difference counts."""
+    S = reference("linear_sweep_points")(U, W, curve, a, a + step)
+    near(S[:, 0], curve(U[:, 0]), 10)
+    near(reference("linear_sweep_points")(U, W, curve, a + shift, a + step + shift), S, 40)
+    near(reference("linear_sweep")(U, W, curve, step, np.linalg.norm(step)), S, 40)
+
+
+@given(spots, directions, directions)
+def test_plane_and_triangle(p1, e2, e3):
+    """The triangle is the part of the plane patch that the mask keeps, and its corners are where the statement says."""
+    if np.linalg.norm(np.cross(e2, e3)) < 0.05:
+        return
+    p2, p3 = p1 + e2, p1 + e3
+    normal = np.cross(e2, e3)
+    for id in ("plane3", "triangle_patch"):
+        S = reference(id)(U, W, p1, p2, p3)
+        near((S - p1) @ normal, 0.0, 50 * np.linalg.norm(normal))
+        near(S[0, 0], p1, 20)
+        near(S[-1, 0], p2, 20)
+    near(reference("plane3")(0.0, 1.0, p1, p2, p3), p3, 20)
+    near(reference("triangle_patch")(U[:, 0], 1.0, p1, p2, p3), p3, 20)
+    frame = np.linalg.lstsq(np.stack([e2, e3], axis=1), (S - p1).reshape(-1, 3).T, rcond=None)[0]
+    assert (frame > -1e-9).all(), "barycentric coordinates of the patch"
+    assert (frame.sum(axis=0) < 1 + 1e-9).all()
+
+
+def test_triangle_mask():
+    keep = reference("triangle_mask")
+    assert keep(0.0, 0.0)
+    assert keep(1.0, 0.0)
+    assert keep(0.0, 1.0)
+    assert not keep(1.0, 1.0)
+    t = np.linspace(0, 1, 101)
+    assert keep(t, 1 - t).all(), "the edge p2 p3, rounding included"
+    assert keep(t[:, None], t[None]).mean() == pytest.approx(0.5, abs=0.01)
+
+
+@given(st.floats(0.2, 4), st.floats(0.2, 4), st.floats(-3, 3), st.floats(0.5, 3))
+def test_cone_from_line(x1, x2, y1, rise):
+    """A frustum of the known form, turned and relabelled: (u, w) there is (w, u) here, and the axis z has become y."""
+    S = reference("cone_from_line")(U, W, np.array([x1, y1, 0]), np.array([x2, y1 + rise, 0]))
+    known = reference("frustum")(W, U, x1, x2, rise)
+    near(S[..., 0], known[..., 0], 20)
+    near(S[..., 1], known[..., 2] + y1, 20)
+    near(S[..., 2], -known[..., 1], 20)
+
+
+@given(angles)
+def test_revolve_y(angle):
+    S = reference("revolve_y")(U, W, curve, angle)
+    radius, height = distance_to_axis(S, np.zeros(3), np.array([0.0, 1, 0]))
+    near(S[:, 0], curve(U[:, 0]), 20)
+    near(radius, radius[:, :1], 20)
+    near(height, height[:, :1], 20)
+    near(reference("revolve_coord")(U, W, curve, "y", angle), S, 20)
+
+
+@pytest.mark.parametrize(
+    ("axis", "start", "end"), [("x", (0, 1, 0), (0, 0, 1)), ("y", (0, 0, 1), (1, 0, 0)), ("z", (1, 0, 0), (0, 1, 0))]
+)
+def test_the_sense_about_each_axis(axis, start, end):
+    """A quarter turn takes each axis to the next."""
+
+    def still(t):
+        return np.multiply.outer(np.ones_like(t), start) + 0.0
+
+    near(reference("revolve_coord")(0.5, 1.0, still, axis, np.pi / 2), end)
+
+
+@given(angles, angles)
+def test_revolve_xy_axis(alpha, angle):
+    k = np.array([np.cos(alpha), np.sin(alpha), 0.0])
+    S = reference("revolve_xy_axis")(U, W, curve, alpha, angle)
+    near(S @ k, (S @ k)[:, :1], 20)
+    near(S[:, 0], curve(U[:, 0]), 20)
+    near(reference("revolve_xy_axis")(U, W, lambda t: np.multiply.outer(t, k), alpha, angle), U[..., None] * k, 20)
+
+
+@given(angles)
+def test_the_two_special_axes_of_the_plane(angle):
+    """alpha = 0 is x; alpha = π/2 is y, a free check of the signs of the y matrix."""
+    turned = reference("revolve_xy_axis")
+    near(turned(U, W, curve, 0.0, angle), reference("revolve_coord")(U, W, curve, "x", angle), 20)
+    near(turned(U, W, curve, np.pi / 2, angle), reference("revolve_y")(U, W, curve, angle), 20)
+
+
+@given(spots, directions, angles, numbers)
+def test_revolve_axis(point, axis, angle, along):
+    S = reference("revolve_axis")(U, W, curve, point, axis, angle)
+    radius, height = distance_to_axis(S, point, axis)
+    near(S[:, 0], curve(U[:, 0]), 100)
+    near(radius, radius[:, :1], 1000)
+    near(height, height[:, :1], 100)
+    near(reference("revolve_axis")(U, W, curve, point + along * axis / np.linalg.norm(axis), axis, angle), S, 1000)
+    near(reference("revolve_axis")(U, W, curve, point, -axis, -angle), S, 100)

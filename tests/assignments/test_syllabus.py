@@ -1,0 +1,107 @@
+"""The mistakes and numbers of the syllabus: every listed id is there, every reference gives the printed values."""
+
+import numpy as np
+import pytest
+
+from autograder.catalogue import shipped
+
+LISTED = {
+    "cylinder": "no_2pi diameter minus_h clockwise swap_uw centred",
+    "frustum": "radii_swapped sum_not_diff mean_radius slant_as_height degrees",
+    "sphere": "full_circle lat_0_to_pi north_first swap_uw no_cos_on_xy sin_cos_mixed",
+    "torus": "R_is_outer translated_not_turned z_uses_R no_r swap_uw half_tube",
+    "torus_class": "equal_radii_sphere sphere_never reversed",
+    "direction_cosines": "not_normalised reversed angles taxicab squared",
+    "linear_sweep": "not_normalised no_distance backwards swap_uw multiplied",
+    "linear_sweep_points": "starts_at_a end_point_only reversed unit_length swap_uw",
+    "plane3": "p3_opposite swap_uw unit_directions lerp_each bilinear_to_p3",
+    "triangle_mask": "other_half open product half_each",
+    "triangle_patch": "parallelogram normalised clamped",
+    "cone_from_line": "negative_sense about_x about_z swap_uw reversed degrees",
+    "revolve_y": "negative_sense about_x about_z degrees angle_is_w swap_uw starts_in_yz flat_profile_only always_full_turn",
+    "revolve_coord": "y_sign_like_x_z all_negative flat_profile degrees",
+    "revolve_xy_axis": "inverse_first no_inverse no_transform axis_ignored wrong_sense from_y",
+    "revolve_axis": "through_origin no_translate_back translate_wrong_way axis_not_unit no_third_term axis_is_a_point",
+}
+ASSIGNMENTS = {
+    "A1": ["cylinder", "frustum", "sphere", "torus", "torus_class"],
+    "A2": ["direction_cosines", "linear_sweep", "linear_sweep_points", "plane3", "triangle_mask", "triangle_patch"],
+    "A3": ["cone_from_line", "revolve_y", "revolve_coord", "revolve_xy_axis", "revolve_axis"],
+}
+
+
+def arc(t):
+    return np.stack([2 * np.cos(np.pi * t), 1 + t**2, 3 * t * (1 - t)], axis=-1)
+
+
+def prof(t):
+    return np.stack([2 + np.sin(2 * t), 3 * t - 0.5, 0 * t], axis=-1)
+
+
+def spc(t):
+    return np.stack([2 + t, 3 * t - 0.5, 0.7 - t**2], axis=-1)
+
+
+TRIANGLE = ((1, 2, 0), (4, 1, 2), (0, 5, 3))
+ORACLES = [
+    ("cylinder", (0.25, 0.4), (2, 5), (0, 2, 2)),
+    ("cylinder", (0.1, 0.5), (2, 5), (1.61803399, 1.1755705, 2.5)),
+    ("frustum", (0.25, 0.5), (3, 1, 4), (0, 2, 2)),
+    ("frustum", (0.125, 0.25), (3, 1, 4), (1.76776695, 1.76776695, 1)),
+    ("sphere", (0.75, 0.125), (2,), (1, 1, 1.41421356)),
+    ("sphere", (0.5, 0.25), (2,), (0, 2, 0)),
+    ("torus", (0, 0.25), (3, 1), (0, 4, 0)),
+    ("torus", (0.125, 0.5), (3, 1), (-3.70710678, 0, 0.707106781)),
+    ("direction_cosines", (), ((1, -2, 3), (4, 2, 15)), (0.230769231, 0.307692308, 0.923076923, 13)),
+    ("linear_sweep", (0.25, 0.5), (arc, (1, 2, 2), 6), (2.41421356, 3.0625, 2.5625)),
+    ("linear_sweep_points", (0.25, 0.5), (arc, (1, -2, 3), (2, 0, 7)), (1.91421356, 2.0625, 2.5625)),
+    ("plane3", (0.5, 0.25), TRIANGLE, (2.25, 2.25, 1.75)),
+    ("triangle_patch", (0.5, 0.5), TRIANGLE, (1.25, 3.25, 2)),
+    ("triangle_patch", (0.25, 1), TRIANGLE, (0, 5, 3)),
+    ("cone_from_line", (0.5, 0.25), ((3, 0, 0), (1, 4, 0)), (0, 2, -2)),
+    ("cone_from_line", (1, 0.5), ((3, 0, 0), (1, 4, 0)), (-1, 4, 0)),
+    ("revolve_y", (0.5, 0.25), (prof,), (0, 1, -2.84147098)),
+    ("revolve_y", (1, 0.125), (prof,), (2.05718394, 2.5, -2.05718394)),
+    ("revolve_coord", (0.5, 0.25), (spc, "x"), (2.5, -0.45, 1)),
+    ("revolve_xy_axis", (0.5, 0.25), (spc, 0.523598776), (2.5330127, 0.942820323, -0.383974596)),
+    ("revolve_axis", (0.5, 0.25), (spc, (1, 0, -1), (1, 2, 2)), (2.01111111, 1.93888889, -0.244444444)),
+]
+
+
+@pytest.mark.parametrize(("name", "exercises"), ASSIGNMENTS.items())
+def test_each_assignment_poses_its_exercises(name, exercises):
+    assert list(shipped().assignment(name).exercises) == exercises
+
+
+@pytest.mark.parametrize(("name", "ids"), LISTED.items())
+def test_every_listed_mistake_is_there(name, ids):
+    assert set(ids.split()) <= {mistake.id for mistake in shipped().find(name).mistakes}
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "arguments", "expected"), ORACLES, ids=[f"{name}-{place}" for name, place, *_ in ORACLES]
+)
+def test_the_printed_numbers(name, place, arguments, expected):
+    """Nine digits were printed, so half a unit of the ninth is allowed."""
+    np.testing.assert_allclose(shipped().find(name).reference(*place, *arguments), expected, rtol=1e-8, atol=1e-8)
+
+
+@pytest.mark.parametrize(("R", "r", "kind"), [(3, 1, "ring"), (1, 1, "horn"), (0.5, 1, "spindle"), (0, 1, "sphere")])
+def test_the_four_kinds_of_torus(R, r, kind):
+    assert shipped().find("torus_class").reference(R, r) == kind
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [
+        ("torus_class", (-1.0, 1.0)),
+        ("torus_class", (1.0, 0.0)),
+        ("torus_class", (1.0, -1.0)),
+        ("direction_cosines", ((1, 2, 3), (1, 2, 3))),
+        ("linear_sweep", (0.5, 0.5, arc, (0, 0, 0), 1.0)),
+        ("revolve_axis", (0.5, 0.5, spc, (1, 0, -1), (0, 0, 0))),
+    ],
+)
+def test_refusals(name, arguments):
+    with pytest.raises(ValueError, match=r"."):
+        shipped().find(name).reference(*arguments)
