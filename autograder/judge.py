@@ -65,7 +65,7 @@ def judge(
 
 
 def _verdict(exercise: Exercise, asked: Sequence[Asked], call: Callable[..., Any], *, figure: bool) -> Verdict:
-    gated = [through_gates(one) for one in asked]
+    gated = through_gates(asked)
     findings = [find(one) for one in gated]
     shown = [f for f in findings if not f.target.hidden]
     hidden = [f for f in findings if f.target.hidden]
@@ -157,7 +157,7 @@ def _shown(finding: Finding) -> dict[str, Any]:
     if f is not None:
         i = worst_index(f)
         yours, expected = pair_written(f, i)
-        where = tuple(float(x) for x in f.points[i])
+        where = None if finding.right else tuple(float(x) for x in f.points[i])
         return {"deviation": _rounded(f.worst), "where": where, "yours": yours, "expected": expected}
     gated = finding.gated
     if gated.stopped is not None:

@@ -31,6 +31,9 @@ TEXT: dict[str, str] = {
     "hidden": "data that are not shown here",
     "amount.percent": "{number} % of its size",
     "amount.times": "{number} times its size",
+    "given.vector": "arrays of shape {shapes}",
+    "given.mesh": "arrays of shape {shapes}",
+    "given.scalar": "single numbers",
     # --- what is right
     "right.all": "Right: your {noun} meets the reference at all {count} places compared, on every one of the {sets} data sets.",
     "right.all_one": "Right: your {noun} meets the reference at all {count} places compared.",
@@ -67,6 +70,7 @@ TEXT: dict[str, str] = {
     "wrong.relabelled": "Right {noun}, other labels: {relabelled}. {normal}",
     "wrong.other_start": "Right {noun}, but it starts elsewhere: {shift}. {relabelled}",
     "wrong.close": "Very close, but not the same: at most {amount} away.",
+    "wrong.close_float32": "Right to the seven digits that float32 holds, but float64 holds sixteen.",
     "wrong.different": "Your {noun} is another one than asked for: up to {amount} away.",
     "wrong.different_inside": "It differs inside only: all edges are right, but between them it is up to {amount} away.",
     "wrong.different_corners": "It is exact at the corners only: between them it is up to {amount} away.",
@@ -127,14 +131,15 @@ TEXT: dict[str, str] = {
     "fact.factor": "Every point is {factor} times as far from the origin as it should be.",
     "fact.inside": "All edges are right, the inside is not.",
     # --- where
-    "where.point": "Furthest off at {place}, {data}: your point is {yours}, the right one is {expected}.",
-    "where.value": "At {place}, {data}: you have {yours}, the right one is {expected}.",
-    "where.entry": "Furthest off, {data}: entry {place} is {yours}, the right one is {expected}.",
+    "where.point": "Furthest off on {data}, at {place}: your point is {yours}, the right one is {expected}.",
+    "where.value": "On {data}, at {place}: you have {yours}, the right one is {expected}.",
+    "where.entry": "Furthest off on {data}: {place} is {yours}, the right one is {expected}.",
     "where.number": "On {data}: you have {yours}, the right one is {expected}.",
     "where.word": "On {data}: you answer {yours}.",
-    "where.at": "At {place}, {data}.",
     "where.data": "On {data}.",
-    "where.item": "element {item}, {place}",
+    "where.index": "entry {index}",
+    "where.element": "element {item}",
+    "where.index_of_element": "entry {index} of element {item}",
     "where.line": "Line {line}: {source}",
     "where.line_only": "Line {line} of the cell that defines it.",
     # --- one thing to look at
@@ -142,6 +147,7 @@ TEXT: dict[str, str] = {
     "look.swap": "Look at which parameter runs along which curve: first u along the generatrix, then w along the directrix.",
     "look.other_start": "Look at the first point, {place}: from where is the turn counted?",
     "look.close": "Look for a rounded constant (np.pi has all its digits) or for float32.",
+    "look.float32": "Look for float32 or dtype=..., and leave it out.",
     "look.unused": "Look for where {name} should come in.",
     "look.inside": "Look at the term that vanishes on the edges.",
     "look.corners": "Look at what happens between the corners: how do the points along an edge get their place?",
@@ -170,6 +176,14 @@ TEXT: dict[str, str] = {
     "value.rolled": "The right entries, but shifted by one along axis {axis}.",
     "value.permuted": "The right layers along axis {axis}, but in another order: the right ones stand at your {order}.",
     "value.layers": "Along axis {axis}, {count} of {of} layers are wrong (number {wrong}); the others are right.",
+    "value.items": "{count} of {of} entries are wrong (number {wrong}); the others are right.",
+    "value.items_factor": (
+        "{count} of {of} entries are wrong (number {wrong}): they are {factor} times what they should be. The others are right."
+    ),
+    "value.layers_factor": (
+        "Along axis {axis}, {count} of {of} layers are wrong (number {wrong}): they are {factor} times what they should be. "
+        "The others are right."
+    ),
     "value.entries": "{count} of {total} entries are wrong.",
     "value.shape.transposed": "The entries are right, but the axes are exchanged: shape {yours}, wanted {expected}.",
     "value.shape.reshape": "The numbers are right and in the right order, but in shape {yours}; wanted {expected}.",
@@ -216,6 +230,7 @@ TEXT: dict[str, str] = {
     "answer.text": "Your function returned text ({text}) where numbers are wanted.",
     "answer.ragged": "The rows of your answer have different shapes, {first} and {other}; they do not make one array.",
     "answer.parts": "Your function returned its coordinates one by one, and their shapes differ: {parts}.",
+    "answer.pieces": "Your function returned several pieces of different shapes; wanted is one array of shape {wanted}.",
     "answer.function": "Your function returned a {type}, not what comes out of calling it.",
     "answer.object": "Your function returned {type}; wanted is an array of numbers.",
     "answer.no_surface": "Your answer cannot be turned into a {noun}: {message}",
@@ -224,6 +239,7 @@ TEXT: dict[str, str] = {
     "look.text": "Return the numbers themselves, not print(...) or str(...).",
     "look.ragged": "Make all rows the same length before they go into one array.",
     "look.parts": "Bring them to one shape (np.broadcast_arrays), then np.stack([x, y, z], axis=-1).",
+    "look.pieces": "Join them: np.concatenate or np.append for numbers behind one another, np.stack for rows of one length.",
     "look.function": "Are the brackets of a call missing?",
     "look.object": "Return one array: np.stack([x, y, z], axis=-1) for points.",
     # --- gates: shapes

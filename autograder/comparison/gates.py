@@ -6,6 +6,7 @@ shapes of input but not all is judged by those that it handles.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,14 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from autograder.comparison import values as value_rungs
-from autograder.comparison.answers import Answer, Numbers, Raised, Unreadable
+from autograder.comparison.answers import Answer, Numbers, Raised, Unreadable, Word
 from autograder.comparison.asking import PAIR, Asked
 from autograder.comparison.maps import Sampled, agree
 from autograder.comparison.samples import Form
 from autograder.comparison.target import ROUNDING, Evaluator, Target
 from autograder.result import Tier
-
-KINDS = {"timeout": "timeout", "memory": "memory", "died": "died", "refused": "refused", "missing": "missing"}
 
 
 @dataclass(frozen=True)
@@ -55,8 +54,18 @@ class Gated:
     empty: Trouble | None = None  # a remark only
 
 
-def through_gates(asked: Asked) -> Gated:
-    """Hold the answers on one data set to the gates."""
+def through_gates(asked: Sequence[Asked]) -> list[Gated]:
+    """Hold the answers on all data sets to the gates."""
+    gated = [_through(one) for one in asked]
+    repeat = next((g.stopped for g in gated if g.stopped is not None and g.stopped.tier == "not repeatable"), None)
+    for one in gated:
+        # What changes from call to call also changes with what else is in the array; that is not the point then.
+        if repeat is not None and one.stopped is not None and one.stopped.tier == "not pointwise":
+            one.stopped = repeat
+    return gated
+
+
+def _through(asked: Asked) -> Gated:
     target, gated = asked.target, Gated(asked.target)
     if asked.fatal is not None:
         gated.stopped = error_gate(asked.fatal)
@@ -114,7 +123,7 @@ def _map_gates(asked: Asked, gated: Gated) -> None:
         return
     gated.troubles = tuple(troubles)
     gated.sampled = _sampled(asked, handled)
-    gated.stopped = _finite_gate(gated.sampled) or _pointwise_gate(asked, gated.sampled, handled) or _again_gate(asked)
+    gated.stopped = _finite_gate(gated.sampled) or _again_gate(asked) or _pointwise_gate(asked, gated.sampled, handled)
     if asked.empty is not None:
         gated.empty = _trouble(target, "vector", asked.empty, (0, *tail))
 
@@ -122,8 +131,7 @@ def _map_gates(asked: Asked, gated: Gated) -> None:
 def _trouble(target: Target, form: Form, answer: Answer | None, wanted: tuple[int, ...]) -> Trouble | None:
     """Why an answer has not the shape that this form of input asks for; None where it has."""
     names = target.names
-    given = {"vector": "(n,)", "mesh": "(n, 1) and (1, m)" if len(names) == 2 else "a table", "scalar": "single numbers"}[form]
-    facts: dict[str, Any] = {"given": given, "wanted": str(wanted), "names": " and ".join(names)}
+    facts: dict[str, Any] = {"form": form, "given": _given(target, form), "wanted": str(wanted), "names": names}
     if isinstance(answer, Raised):
         gate = error_gate(answer)
         key = "shape.raised_writes" if gate.key == "error.writes" else "shape.raised"
@@ -154,10 +162,20 @@ def _trouble(target: Target, form: Form, answer: Answer | None, wanted: tuple[in
     return Trouble(form, "shape.other", facts)
 
 
+def _given(target: Target, form: Form) -> str:
+    """The shapes of the parameters in this form, ``(9, 1) and (1, 7)``; empty for single numbers."""
+    if form == "scalar":
+        return ""
+    arrays = target.samples.columns() if form == "vector" else target.samples.open_mesh()
+    return " and ".join(sorted({str(a.shape) for a in arrays}, reverse=True))
+
+
 def _no_form(target: Target, asked: Asked, answers: dict[str, Answer | None], troubles: list[Trouble]) -> Gate:
     """The gate for a function that handles no form of input."""
     if isinstance(asked.vector, Unreadable):
         return unreadable_gate(asked.vector)
+    if isinstance(asked.vector, Word):
+        return unreadable_gate(Unreadable("text", {"text": repr(asked.vector.text[:40])}))
     shapes = {a.values.shape for a in answers.values() if isinstance(a, Numbers)}
     if len(shapes) == 1 and all(isinstance(a, Numbers) for a in answers.values()):
         return Gate("not pointwise", "pointwise.own_parameters", {"got": str(shapes.pop())})
@@ -252,6 +270,8 @@ def _value_gates(asked: Asked, gated: Gated) -> None:
     gated.answer = answer
     if isinstance(answer, Raised):
         gated.stopped = error_gate(answer)
+    elif isinstance(answer, Unreadable) and answer.reason in ("parts", "ragged") and isinstance(target.expected, Numbers):
+        gated.stopped = Gate("shape", "answer.pieces", {"wanted": str(target.expected.values.shape)})
     elif isinstance(answer, Unreadable):
         gated.stopped = unreadable_gate(answer)
     elif (bad := value_rungs.first_unreadable(answer)) is not None:

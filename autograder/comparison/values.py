@@ -151,11 +151,20 @@ def _other_shape(a: Array, b: Array, enough: float) -> Pattern:
     return Pattern("value.shape.other", facts)
 
 
+def _common_factor(a: Array, b: Array, enough: float) -> float | None:
+    """The one factor by which all of several entries are off."""
+    square = float((b * b).sum())
+    if a.size < 2 or square == 0.0:
+        return None
+    factor = float((a * b).sum() / square)
+    return factor if abs(factor) > 1e-12 and agree(a, factor * b, enough * max(1.0, abs(factor))) else None
+
+
 def _factor(a: Array, b: Array, enough: float) -> Pattern | None:
     if agree(a, -b, enough):
         return Pattern("value.sign")
-    factor = float((a * b).sum() / (b * b).sum())
-    if abs(factor) > 1e-12 and agree(a, factor * b, enough * max(1.0, abs(factor))):
+    factor = _common_factor(a, b, enough) if b.size > 1 else _plain_factor(float(a.sum()), float(b.sum()))
+    if factor is not None:
         return Pattern("value.factor", {"factor": factor})
     if b.size > 1:
         offset = float((a - b).mean())
@@ -166,6 +175,12 @@ def _factor(a: Array, b: Array, enough: float) -> Pattern | None:
         if signs_only:
             return Pattern("value.some_signs", {"count": int((np.abs(a - b) > enough).sum()), "total": int(b.size)})
     return None
+
+
+def _plain_factor(a: float, b: float) -> float | None:
+    """The factor between two single numbers, where it is one worth telling: 2, 1/2, 3, 1/3, 10 ..., π/180 and its inverse."""
+    told = (2, 3, 4, 6, 9, 10, 100, 1000, np.pi, 2 * np.pi, 180 / np.pi)
+    return next((f for t in told for f in (t, 1 / t) if abs(a - f * b) <= 1e-9 * abs(a)), None)
 
 
 def _rearranged(a: Array, b: Array, enough: float) -> Pattern | None:
@@ -208,5 +223,8 @@ def _partly_right(a: Array, b: Array, enough: float) -> Pattern | None:
         if layers.any():
             wrong = np.flatnonzero(~layers)
             places = ", ".join(str(i) for i in wrong[:8]) + (", ..." if len(wrong) > 8 else "")
-            return Pattern("value.layers", {"axis": axis, "wrong": places, "count": len(wrong), "of": len(layers)})
+            facts = {"axis": axis, "wrong": places, "count": len(wrong), "of": len(layers)}
+            factor = _common_factor(np.take(a, wrong, axis), np.take(b, wrong, axis), enough)
+            key = "value.items" if b.ndim == 1 else "value.layers"
+            return Pattern(f"{key}_factor", {**facts, "factor": factor}) if factor is not None else Pattern(key, facts)
     return Pattern("value.entries", {"count": total - count, "total": total})

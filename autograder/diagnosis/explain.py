@@ -21,7 +21,7 @@ from autograder.diagnosis.ladder import Finding, Recognised, common
 from autograder.diagnosis.places import AXES, Localised, coordinate_fact, localise
 from autograder.exercise import Exercise
 from autograder.messages import listing, number, place, say, written
-from autograder.result import Tier
+from autograder.result import PARTS, Tier
 
 Parts = list[tuple[str, str]]
 # Look-texts of gates that are not called like their gate.
@@ -33,6 +33,7 @@ LOOKS = {
     "pointwise.own_parameters": "look.own_parameters",
     "repeat.other": "look.repeat",
     "repeat.raised": "look.repeat",
+    "shape.raised_writes": "look.writes",
 }
 
 
@@ -55,7 +56,10 @@ class Explanation:
         self.worst = worst_finding(shown)
 
     def parts(self) -> Parts:
-        """The parts in order."""
+        """The parts, in the order in which they are read."""
+        return sorted(self._parts(), key=lambda part: PARTS.index(part[0]))
+
+    def _parts(self) -> Parts:
         if self.tier == "identical":
             return self._all_right()
         if not self.wrong and any(not f.right for f in self.hidden):
@@ -65,8 +69,10 @@ class Explanation:
             return [*self._right_sets(), *self._gate(stopped, next(f for f in self.wrong if f.gated.stopped is stopped))]
         if self.tier == "shape" and self.troubles:
             return [("right", say("right.points")), *self._shape()]
-        body = self._map() if self.worst.sampled is not None else self._value()
-        return [*body, *(self._shape() if self.troubles else [])]
+        if self.worst.sampled is None:
+            return self._value()
+        body, unused = self._map()
+        return [*body, *(self._shape() if self.troubles and not unused else [])]
 
     # --- right
 
@@ -115,6 +121,8 @@ class Explanation:
             "data": named([finding.target.name]),
             "place": place(self._names(), gate.where) if gate.where is not None else "",
         }
+        if "form" in facts:
+            facts |= {"given": given_text(gate.facts), "names": listing(gate.facts["names"])}
         parts: Parts = [("wrong", say(gate.key, **facts))]
         if gate.facts.get("line"):
             key = "where.line" if gate.facts.get("source") else "where.line_only"
@@ -128,30 +136,33 @@ class Explanation:
 
     def _shape(self) -> Parts:
         """The forms of input that are not handled."""
-        parts: Parts = [("wrong", say(t.key, **t.facts)) for t in self.troubles]
+        parts: Parts = [("wrong", trouble_text(t)) for t in self.troubles]
         handled = {"vector", "mesh", "scalar"} - {t.form for t in self.troubles}
         if handled == {"scalar"} and all(t.key == "shape.raised" for t in self.troubles):
             parts.append(("look", say("look.numbers_only")))
         else:
-            look = _look_of(self.troubles[0].key, len(self._names())) or "look.shape"
+            key = self.troubles[0].key
+            look = LOOKS.get(key) or _look_of(key, len(self._names())) or "look.shape"
             parts.append(("look", say(look)))
         return parts
 
     # --- maps
 
-    def _map(self) -> Parts:
+    def _map(self) -> tuple[Parts, bool]:
+        """The message for a map, and whether it leaves a parameter unused (which explains wrong shapes too)."""
         maps = [f.sampled for f in self.wrong if f.sampled is not None]
         where = localise(maps)
         f = self.worst.sampled
         assert f is not None
         parts = [*self._right_sets(), *self._right_places(where)]
         if self.recognised is not None:
-            return [*parts, *self._mistake(), ("where", self._where(f))]
+            return [*parts, *self._mistake(), ("where", self._where(f))], False
         wrong, look = self._rung(where, maps, f)
-        return [*parts, *(("wrong", text) for text in wrong), ("where", self._where(f)), ("look", look)]
+        body = [*parts, *(("wrong", text) for text in wrong), ("where", self._where(f)), ("look", look)]
+        return body, bool(where.unused)
 
     def _right_places(self, where: Localised) -> Parts:
-        if self.tier in ("relabelled", "other start", "close", "same set", "covered"):
+        if self.tier in ("relabelled", "other start", "close", "same set", "covered") or self.exercise.kind == "mask":
             return []
         names = self._names()
         right = [AXES[i] for i, fine in enumerate(where.coordinates[:3]) if fine]
@@ -188,6 +199,8 @@ class Explanation:
             start = place(self._names(), [0.0] * len(self._names()))
             return [self._other_start(shifted)], say("look.other_start", place=start)
         if self.tier == "close":
+            if all(is_float32(m) for m in maps):
+                return [say("wrong.close_float32")], say("look.float32")
             return [say("wrong.close", amount=messages.amount(f.worst))], say("look.close")
         return self._different(where, maps, f)
 
@@ -254,7 +267,7 @@ class Explanation:
 
     def _mask(self, f: Sampled) -> tuple[list[str], str]:
         bad = f.deviations > f.target.allowed
-        i = int(np.flatnonzero(bad)[0])
+        i = worst_index(f)
         facts = {"yours": spoken_truth(f.values[i]), "expected": spoken_truth(f.expected[i])}
         return [say("wrong.mask", **facts, count=int(bad.sum()), total=len(bad))], say("look.value")
 
@@ -328,8 +341,16 @@ def worst_finding(findings: Sequence[Finding]) -> Finding:
 
 
 def worst_index(f: Sampled) -> int:
-    """The sample that is furthest off."""
-    return int(np.where(np.isfinite(f.deviations), f.deviations, np.inf).argmax())
+    """The sample that is furthest off; of equally bad ones one inside."""
+    deviations = np.where(np.isfinite(f.deviations), f.deviations, np.inf)
+    inside = f.target.samples.inside[f.indices]
+    bad = deviations >= deviations.max() * (1 - 1e-9)
+    return int((bad & inside).argmax() if (bad & inside).any() else bad.argmax())
+
+
+def is_float32(f: Sampled) -> bool:
+    """Whether all its values are numbers that float32 can hold, and the right ones rounded to it are near."""
+    return bool((f.values.astype(np.float32) == f.values).all()) and f.worst < 1e-5
 
 
 def pair_written(f: Sampled, i: int) -> tuple[str, str]:
@@ -396,9 +417,10 @@ def value_where(finding: Finding, data: str) -> Parts:
     else:
         digits = messages.digits_for(abs(entry.yours - entry.expected), abs(entry.expected) or 1.0)
         yours, right = number(entry.yours, digits), number(entry.expected, digits)
-    at = str(list(entry.index)) if entry.index else ""
+    at = say("where.index", index=list(entry.index)) if entry.index else ""
     if entry.item is not None:
-        at = say("where.item", item=entry.item, place=at).rstrip(", ")
+        key = "where.index_of_element" if at else "where.element"
+        at = say(key, index=list(entry.index), item=entry.item)
     key = "where.entry" if at else "where.number"
     return [("where", say(key, data=data, place=at, yours=yours, expected=right))]
 
@@ -451,6 +473,11 @@ def described(target: Target) -> str:
     return say("data.with", name=target.name, arguments=", ".join(shown)) if shown else target.name
 
 
-def trouble_forms(troubles: Sequence[Trouble]) -> list[str]:
-    """The forms of input that are not handled, by name."""
-    return [t.form for t in troubles]
+def trouble_text(trouble: Trouble) -> str:
+    """A form of input that is not handled, in words."""
+    return say(trouble.key, **{**trouble.facts, "given": given_text(trouble.facts), "names": listing(trouble.facts["names"])})
+
+
+def given_text(facts: dict[str, Any]) -> str:
+    """A form of input in words."""
+    return say(f"given.{facts['form']}", shapes=facts["given"])
