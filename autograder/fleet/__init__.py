@@ -1,0 +1,7 @@
+"""Grades whole classes: a course, its submissions, one report."""
+
+from autograder.fleet.course import Course
+from autograder.fleet.grade import grade
+from autograder.fleet.result import CellReport, GradeReport, StudentReport
+
+__all__ = ["CellReport", "Course", "GradeReport", "StudentReport", "grade"]

@@ -1,0 +1,264 @@
+"""An nbgrader course: its folders, its settings and its exercises, read from ``nbgrader_config.py`` without nbgrader.
+
+Settings keep nbgrader's names and meanings; a setting may be given under the class that has it or under a class that it
+inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our own are under ``c.Directrix``:
+
+    c.Directrix.level = "A"                      # isolation to require: A, A-, B, C or D
+    c.Directrix.packages = ("numpy", "scipy")    # what learners may import, beyond what exercises allow; or "all"
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import logging
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from traitlets.config.loader import Config, ConfigFileNotFound, JSONFileConfigLoader, PyFileConfigLoader
+
+from autograder import catalogue
+from autograder.catalogue import Catalogue
+from autograder.errors import CourseError
+from autograder.exercise import Exercise
+from autograder.gradebook import Gradebook, Penalty
+from autograder.notebook import secret, submission
+from autograder.notebook.rebuild import MISSING
+from autograder.notebook.session import Packages
+
+CONFIG = "nbgrader_config"
+# Sections that nbgrader's classes inherit settings from, the nearest first.
+INHERITED = {
+    "Autograde": ("Autograde", "BaseConverter"),
+    "GenerateFeedback": ("GenerateFeedback", "BaseConverter"),
+    "Execute": ("Execute", "ExecutePreprocessor", "NbGraderPreprocessor"),
+    "OverwriteCells": ("OverwriteCells", "NbGraderPreprocessor"),
+    "IgnorePattern": ("IgnorePattern", "NbGraderPreprocessor"),
+    "LimitOutput": ("LimitOutput", "NbGraderPreprocessor"),
+    "AssignLatePenalties": ("AssignLatePenalties", "NbGraderPreprocessor"),
+    "LateSubmissionPlugin": ("LateSubmissionPlugin", "BasePlugin"),
+}
+
+
+class Course:
+    """A course folder.
+
+    Parameters
+    ----------
+    path : path
+        The folder that holds ``nbgrader_config.py``, or a folder laid out like nbgrader's without one.
+
+    Raises
+    ------
+    CourseError
+        If it is no folder, or its configuration cannot be read.
+    """
+
+    def __init__(self, path: Path | str) -> None:
+        self.folder = Path(path).resolve()
+        if not self.folder.is_dir():
+            raise CourseError(f"no such folder: {path}; a course is a folder with nbgrader_config.py")
+        self.config = load_config(self.folder)
+        self.root = (self.folder / str(self.get("CourseDirectory", "root", ""))).resolve()
+
+    def __repr__(self) -> str:
+        return f"Course({str(self.folder)!r})"
+
+    def get(self, section: str, name: str, default: Any) -> Any:
+        """A setting under its section or one that the section inherits from."""
+        for known in INHERITED.get(section, (section,)):
+            if known in self.config and name in self.config[known]:
+                return self.config[known][name]
+        return default
+
+    @property
+    def id(self) -> str:
+        """nbgrader's ``course_id``; may be empty."""
+        return str(self.get("CourseDirectory", "course_id", "")).strip()
+
+    @property
+    def database(self) -> str:
+        """URL of the gradebook."""
+        return str(self.get("CourseDirectory", "db_url", "")) or f"sqlite:///{self.root / 'gradebook.db'}"
+
+    def gradebook(self) -> Gradebook:
+        """Open the gradebook."""
+        return Gradebook(self.database)
+
+    def path(self, step: str, student: str, assignment: str) -> Path:
+        """The folder of a step (``submitted``, ...) for a student (``.``: the instructor) and an assignment."""
+        layout = self.get("CourseDirectory", "directory_structure", "{nbgrader_step}/{student_id}/{assignment_id}")
+        directory = self.get("CourseDirectory", f"{step}_directory", step)
+        return self.root / Path(layout.format(nbgrader_step=directory, student_id=student, assignment_id=assignment))
+
+    def submissions(self, assignment: str) -> dict[str, Path]:
+        """Folders handed in for an assignment, by student, in order."""
+        marker = "\0"
+        pattern = str(self.path("submitted", marker, assignment).relative_to(self.root))
+        before, _, after = pattern.partition(marker)
+        excluded = str(self.get("CourseDirectory", "student_id_exclude", "")).split(",")
+        found = {}
+        for path in sorted(self.root.glob(f"{_literal(before)}*{_literal(after)}")):
+            student = str(path.relative_to(self.root))[len(before) : len(str(path.relative_to(self.root))) - len(after)]
+            if student and "/" not in student and not student.startswith(".") and student not in excluded:
+                found[student] = path
+        return found
+
+    def instructor_file(self, assignment: str, notebook: str) -> Path:
+        """The released notebook of the instructor, else the source."""
+        released = self.path("release", ".", assignment) / f"{notebook}.ipynb"
+        return released if released.is_file() else self.path("source", ".", assignment) / f"{notebook}.ipynb"
+
+    def instructor_files(self, assignment: str) -> dict[str, bytes]:
+        """Files of the assignment beside its notebooks, which overwrite the learner's (but for ``exclude_overwriting``)."""
+        folder = self.path("source", ".", assignment)
+        if not folder.is_dir():
+            return {}
+        kept = self.get("Autograde", "exclude_overwriting", {}).get(assignment, [])
+        files = submission.read_folder(folder, ignore=self.ignore, bounds=self.bounds).others
+        return {path: data for path, data in files.items() if path not in kept}
+
+    @property
+    def ignore(self) -> tuple[str, ...]:
+        """Patterns of names that are not copied."""
+        return tuple(self.get("CourseDirectory", "ignore", submission.IGNORE))
+
+    @property
+    def bounds(self) -> submission.Bounds:
+        """What a submission may bring: our bounds, or nbgrader's where they are lower."""
+        ours = submission.Bounds()
+        file = min(ours.file, 1000 * int(self.get("CourseDirectory", "max_file_size", 100_000)))
+        total = min(ours.total, 1000 * int(self.get("CourseDirectory", "max_dir_size", 100_000)))
+        return submission.Bounds(notebook=ours.notebook, file=file, total=total)
+
+    @property
+    def groupshared(self) -> bool:
+        """nbgrader's ``groupshared``."""
+        return bool(self.get("CourseDirectory", "groupshared", False))
+
+    def permissions(self, section: str) -> int:
+        """Mode of the files that a step writes."""
+        own = "644" if section == "GenerateFeedback" else "444"
+        return int(str(self.get(section, "permissions", "664" if self.groupshared else own)), 8)
+
+    @property
+    def timeout(self) -> float | None:
+        """Seconds that a cell may take, nbgrader's ``Execute.timeout``; None (our own limit) if not set."""
+        value = self.get("Execute", "timeout", None)
+        return None if value is None or value < 0 else float(value)
+
+    @property
+    def add_missing(self) -> bool:
+        """nbgrader's ``OverwriteCells.add_missing_cells``."""
+        return bool(self.get("OverwriteCells", "add_missing_cells", False))
+
+    @property
+    def missing_notification(self) -> str:
+        """What a cell that was put back begins with."""
+        return str(self.get("OverwriteCells", "missing_cell_notification", MISSING))
+
+    @property
+    def create_students(self) -> bool:
+        """nbgrader's ``Autograde.create_student``."""
+        return bool(self.get("Autograde", "create_student", True))
+
+    @property
+    def ignore_pattern(self) -> str:
+        """What is taken out of stderr before a cell is scored; empty: nothing."""
+        enabled = bool(self.get("IgnorePattern", "enabled", False))
+        return str(self.get("IgnorePattern", "pattern", "")) if enabled else ""
+
+    @property
+    def output_limits(self) -> tuple[int, int]:
+        """nbgrader's ``LimitOutput``: lines of output a cell, lines of traceback; -1 for no limit."""
+        return int(self.get("LimitOutput", "max_lines", 1000)), int(self.get("LimitOutput", "max_traceback", 100))
+
+    @property
+    def level(self) -> str:
+        """The isolation level that the course requires."""
+        return str(self.get("Directrix", "level", "A"))
+
+    @property
+    def packages(self) -> Packages:
+        """Packages that learners may import beyond numpy, plotly and what exercises allow."""
+        given = self.get("Directrix", "packages", ())
+        return "all" if given in ("*", "all") else tuple(given)
+
+    def penalty(self) -> Penalty | None:
+        """The late policy: nbgrader's own two, or the course's plug-in (which loads nbgrader, being a class of it)."""
+        given = self.get("AssignLatePenalties", "plugin_class", None)
+        stock = given is None or (isinstance(given, str) and given.rsplit(".", 1)[-1] == "LateSubmissionPlugin")
+        if stock:
+            method = self.get("LateSubmissionPlugin", "penalty_method", "none")
+            return (lambda student, score, late: score) if method == "zero" else None
+        plugin = _imported(given, self.folder)(config=self.config)
+        return lambda student, score, late: plugin.late_submission_penalty(student, score, late)
+
+    @functools.cached_property
+    def catalogue(self) -> Catalogue | None:
+        """The course's own exercises, if it has any."""
+        rooms = ([self.folder], sorted(self.folder.iterdir()), sorted(self.folder.glob("assignments/*")))
+        own = any(catalogue.SLUG.fullmatch(place.name) for room in rooms for place in room)
+        return catalogue.load(self.folder) if own else None
+
+    def exercise(self, name: str) -> Exercise | None:
+        """The exercise of that name: the course's own first, then the shipped ones."""
+        own = self.catalogue.get(name) if self.catalogue is not None else None
+        return own or catalogue.shipped().get(name)
+
+    def secret(self) -> bytes:
+        """The course secret."""
+        return secret.course_secret(self.folder)
+
+    @property
+    def room(self) -> Path:
+        """The folder for our own records, readable by the instructor only."""
+        room = self.folder / secret.ROOM
+        room.mkdir(mode=0o700, exist_ok=True)
+        return room
+
+
+def load_config(folder: Path) -> Config:
+    """Settings from Jupyter's configuration folders and the course folder, the course's last, as nbgrader merges them."""
+    from jupyter_core.paths import jupyter_config_path
+
+    merged = Config()
+    sys.path.insert(0, str(folder))  # nbgrader does so too: a course may import its own plug-ins
+    try:
+        for place in [*reversed([Path(path) for path in jupyter_config_path()]), folder]:
+            for loader in (JSONFileConfigLoader, PyFileConfigLoader):
+                suffix = ".py" if loader is PyFileConfigLoader else ".json"
+                if (place / (CONFIG + suffix)).is_file():
+                    merged.merge(_loaded(loader, CONFIG + suffix, place))
+    finally:
+        sys.path.remove(str(folder))
+    return merged
+
+
+def _loaded(loader: Any, name: str, place: Path) -> Config:
+    try:
+        return loader(name, path=str(place), log=logging.getLogger(__name__)).load_config()  # type: ignore[no-any-return]
+    except ConfigFileNotFound:
+        return Config()
+    except Exception as error:
+        raise CourseError(f"{place / name} cannot be read: {type(error).__name__}: {error}") from error
+
+
+def _imported(given: Any, folder: Path) -> Callable[..., Any]:
+    if not isinstance(given, str):
+        return given  # type: ignore[no-any-return]
+    module, _, name = given.rpartition(".")
+    sys.path.insert(0, str(folder))
+    try:
+        return getattr(importlib.import_module(module), name)  # type: ignore[no-any-return]
+    except (ImportError, AttributeError) as error:
+        raise CourseError(f"the late policy {given!r} cannot be imported: {error}") from error
+    finally:
+        sys.path.remove(str(folder))
+
+
+def _literal(text: str) -> str:
+    """A path as a glob that matches only itself."""
+    return "".join(f"[{letter}]" if letter in "*?[" else letter for letter in text)

@@ -1,0 +1,164 @@
+"""Grades one submission: reads its folder, rebuilds and runs each notebook, and says what is to be written.
+
+Nothing here writes to the course: the gradebook and ``autograded/`` come after, in batches.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import PurePosixPath
+from typing import Any
+
+from autograder.errors import SubmissionError
+from autograder.exercise import Exercise
+from autograder.fleet.course import Course
+from autograder.fleet.result import CellReport, StudentReport
+from autograder.fleet.timestamps import FILE, handed_in
+from autograder.gradebook import AssignmentRow, NotebookMarks, Record
+from autograder.notebook import limit
+from autograder.notebook.marks import Mark
+from autograder.notebook.master import Master, MasterCell
+from autograder.notebook.rebuild import Rebuilt, rebuild
+from autograder.notebook.run import Ran, run
+from autograder.notebook.score import annotate, marks, unanswered
+from autograder.notebook.secret import hidden_seed
+from autograder.notebook.session import OpenSession
+from autograder.notebook.submission import Submission, digest, parse
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What all submissions of an assignment share."""
+
+    course: Course
+    assignment: AssignmentRow
+    masters: Mapping[str, Master]
+    instructor_files: Mapping[str, bytes]
+    secret: bytes = field(repr=False)
+    exercises: Callable[[str], Exercise | None]
+    open_session: OpenSession
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A graded submission: what the gradebook gets, what ``autograded/`` gets, and the report."""
+
+    student: str
+    record: Record
+    files: Mapping[str, bytes]
+    report: StudentReport
+    digest: str
+
+
+def grade_one(plan: Plan, student: str, submitted: Submission) -> Outcome:
+    """Grade one submission.
+
+    Raises
+    ------
+    SubmissionError
+        If it cannot be dated (``timestamp.txt``); broken notebooks are told in the outcome.
+    """
+    started = time.monotonic()
+    timestamp = handed_in(submitted.files)
+    work = _Work(plan, student, submitted)
+    for name, master in plan.masters.items():
+        work.grade(name, master)
+    status = "graded" if work.written else ("broken" if work.broken else "empty")
+    report = StudentReport(
+        student, status, tuple(work.cells), notes=tuple(work.notes), broken=tuple(work.broken), faults=tuple(work.faults),
+        seconds=time.monotonic() - started,
+    )  # fmt: skip
+    files = {**work.files, **plan.instructor_files, **work.written} if work.written else {}
+    return Outcome(student, Record(student, timestamp, work.marks), files, report, submitted.digest)
+
+
+class _Work:
+    """Collects over the notebooks of one submission."""
+
+    def __init__(self, plan: Plan, student: str, submitted: Submission) -> None:
+        self.plan, self.student, self.submitted = plan, student, submitted
+        self.files: dict[str, bytes] = dict(submitted.others)
+        self.written: dict[str, bytes] = {}
+        self.marks: dict[str, NotebookMarks] = {}
+        self.cells: list[CellReport] = []
+        self.notes = list(submitted.notes)
+        self.broken: list[str] = []
+        self.faults: list[str] = []
+        unknown = sorted(set(submitted.notebooks) - set(plan.masters))
+        self.notes += [f"{name}.ipynb: not a notebook of this assignment, left out" for name in unknown]
+
+    def grade(self, name: str, master: Master) -> None:
+        """Grade one notebook, or say why not."""
+        course = self.plan.course
+        data = self.submitted.notebooks.get(name)
+        if data is None:
+            self.marks[name] = NotebookMarks(missing=True)
+            self._report(name, master, {cell.name: Mark(0.0) for cell in master.graded})
+            self.notes.append(f"{name}.ipynb: not handed in")
+            return
+        try:
+            built = rebuild(parse(data), master, add_missing=course.add_missing, missing=course.missing_notification)
+        except SubmissionError as error:
+            self.marks[name] = NotebookMarks(broken=True)
+            self.broken.append(f"{name}.ipynb: {error}")
+            self._report(name, master, {})
+            return
+        ran = self._run(built, master, digest(data))
+        limit.ignore_stderr(built.cells, course.ignore_pattern)
+        limit.limit_outputs(built.cells, *course.output_limits)
+        given = marks(built, ran)
+        annotate(built, given)
+        self.marks[name] = NotebookMarks(given, unanswered(built))
+        self.notes += [f"{name}.ipynb: {note.cell + ': ' if note.cell else ''}{note.text}" for note in built.notes]
+        if ran.restarts > 0:
+            again = "a cell ended" if ran.restarts == 1 else f"cells {ran.restarts} times ended"
+            self.notes.append(f"{name}.ipynb: {again} its process; the cells after it ran in a fresh one")
+        self.faults += [f"{name}.ipynb: {fault}" for fault in ran.faults]
+        self._report(name, master, given, built, ran)
+        self.written[f"{name}.ipynb"] = (json.dumps(built.notebook, indent=1, ensure_ascii=False) + "\n").encode("utf-8")
+
+    def _run(self, built: Rebuilt, master: Master, submission: str) -> Ran:
+        def seed(exercise: str) -> bytes:
+            return hidden_seed(self.plan.secret, self.student, exercise, submission)
+
+        files = {**self.files, **self.plan.instructor_files}
+        ran = run(built, lambda: self.plan.open_session(files), self.plan.exercises, seed, uses_check=master.uses_check)
+        kept = {path: data for path, data in ran.files.items() if harmless(path) and path not in self.plan.instructor_files}
+        self.files |= kept
+        return ran
+
+    def _report(
+        self, name: str, master: Master, given: Mapping[str, Mark], built: Rebuilt | None = None, ran: Ran | None = None
+    ) -> None:
+        runs = {}
+        if built is not None and ran is not None:
+            runs = {mine.name: how for mine, how in zip(built.masters, ran.cells, strict=True) if mine is not None}
+        for cell in master.cells.values():
+            if not cell.grade and not cell.task:
+                continue
+            mark = given.get(cell.name, Mark(None, look=True))
+            how = runs.get(cell.name)
+            fields: dict[str, Any] = {
+                "notebook": name, "name": cell.name, "kind": _kind(cell), "points": mark.points,
+                "available": float(cell.points or 0.0), "look": mark.look, "note": mark.note,
+            }  # fmt: skip
+            verdict = how.verdict if how is not None else None
+            self.cells.append(CellReport(**fields) if verdict is None else CellReport.of_verdict(verdict, **fields))
+
+
+def harmless(path: str) -> bool:
+    """Whether a path from the sandbox may be written below ``autograded/``: relative, no notebook, not the timestamp."""
+    parts = PurePosixPath(path).parts
+    plain = bool(parts) and not path.startswith("/") and ".." not in parts and path.isprintable() and "\\" not in path
+    return plain and path != FILE and not path.endswith(".ipynb")
+
+
+def _kind(cell: MasterCell) -> Any:
+    if cell.task:
+        return "task"
+    if cell.solution:
+        return "written"
+    return "exercise" if cell.exercise is not None else "test"

@@ -1,0 +1,119 @@
+"""What grading a class came to: plain frozen values that go to JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal
+
+from autograder.result import Verdict
+
+Kind = Literal["exercise", "test", "written", "task"]
+Status = Literal["graded", "unchanged", "broken", "empty", "failed"]
+
+
+@dataclass(frozen=True)
+class CellReport:
+    """One graded cell of one student. ``points`` None: a person decides. ``verdict`` without its sampled surfaces."""
+
+    notebook: str
+    name: str
+    kind: Kind
+    points: float | None
+    available: float
+    look: bool = False
+    note: str = ""
+    exercise: str | None = None
+    outcome: str | None = None
+    tier: str | None = None
+    mistake: str | None = None
+    message: str = ""
+
+    @classmethod
+    def of_verdict(cls, verdict: Verdict, **fields: Any) -> CellReport:
+        """A cell report with what its verdict says."""
+        return cls(
+            **fields, exercise=verdict.exercise, outcome=verdict.outcome, tier=verdict.tier, mistake=verdict.mistake,
+            message=verdict.message,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class StudentReport:
+    """One submission.
+
+    ``status``: graded now; unchanged since it was graded; broken (no notebook of it could be read); empty (no notebook handed
+    in); failed (the grader could not do its part). ``broken`` names what was wrong with the submission, ``faults`` what went
+    wrong on the grader's side, ``notes`` what an instructor may want to know.
+    """
+
+    student: str
+    status: Status
+    cells: tuple[CellReport, ...] = ()
+    score: float = 0.0
+    available: float = 0.0
+    penalty: float = 0.0
+    seconds_late: float = 0.0
+    notes: tuple[str, ...] = ()
+    broken: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()
+    seconds: float = 0.0
+    name: str = ""
+
+    @property
+    def looks(self) -> int:
+        """Cells that wait for a person."""
+        return sum(cell.look or cell.points is None for cell in self.cells)
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> StudentReport:
+        """The inverse of ``dataclasses.asdict`` after JSON."""
+        cells = tuple(CellReport(**cell) for cell in data["cells"])
+        lists = {key: tuple(data[key]) for key in ("notes", "broken", "faults")}
+        return cls(**{**data, "cells": cells, **lists})
+
+
+@dataclass(frozen=True)
+class GradeReport:
+    """A class graded. Students in the order of their ids."""
+
+    course: str
+    assignment: str
+    level: str
+    students: tuple[StudentReport, ...] = ()
+    seconds: float = 0.0
+    available: float = 0.0
+    titles: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def graded(self) -> tuple[StudentReport, ...]:
+        """Those graded in this run."""
+        return tuple(student for student in self.students if student.status == "graded")
+
+    @property
+    def broken(self) -> tuple[str, ...]:
+        """Submissions, or notebooks of them, that could not be read, by name."""
+        return tuple(f"{student.student}: {what}" for student in self.students for what in student.broken)
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """What went wrong on the grader's side, by name: never a learner's failure, and tried again in the next run."""
+        return tuple(f"{student.student}: {what}" for student in self.students for what in student.faults)
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """Everything that failed and is named: broken submissions and the grader's own faults."""
+        return self.broken + self.faults
+
+    def student(self, id: str) -> StudentReport:
+        """The report of one student."""
+        return next(student for student in self.students if student.student == id)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain lists, dicts, strings and numbers."""
+        return {**asdict(self), "titles": dict(self.titles), "failures": list(self.failures)}
+
+    def to_json(self, **options: Any) -> str:
+        """Strict JSON (no NaN)."""
+        return json.dumps(self.to_dict(), allow_nan=False, **options)

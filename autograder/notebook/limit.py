@@ -1,0 +1,60 @@
+"""Outputs cut and filtered as nbgrader does between running and scoring (its LimitOutput and IgnorePattern).
+
+Each cell's list of outputs is changed in place. What decides a mark, an error or a text on stderr, is never lost in cutting:
+nbgrader drops the stderr of a test cell that printed a thousand lines before it, and the cell gets full points.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+TRUNCATED = "... Output truncated ..."
+
+
+def ignore_stderr(cells: Iterable[dict[str, Any]], pattern: str) -> None:
+    """Take out stderr outputs in which the pattern is found."""
+    if not pattern:
+        return
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            cell["outputs"] = [output for output in cell["outputs"] if not _matches(output, pattern)]
+
+
+def _matches(output: dict[str, Any], pattern: str) -> bool:
+    stderr = output["output_type"] == "stream" and output["name"] == "stderr"
+    return stderr and re.search(pattern, output["text"]) is not None
+
+
+def limit_outputs(cells: Iterable[dict[str, Any]], max_lines: int, max_traceback: int) -> None:
+    """Cut the streams of each cell to so many lines in all, and tracebacks to so many; -1 for no limit."""
+    for cell in cells:
+        if cell["cell_type"] == "code":
+            if max_lines != -1:
+                cell["outputs"] = _limited(cell["outputs"], max_lines)
+            if max_traceback != -1:
+                for output in cell["outputs"]:
+                    if output["output_type"] == "error" and len(output["traceback"]) > max_traceback:
+                        output["traceback"] = _cut(output["traceback"], max_traceback)
+
+
+def _limited(outputs: list[dict[str, Any]], most: int) -> list[dict[str, Any]]:
+    kept = []
+    length = 0
+    for output in outputs:
+        if output["output_type"] == "stream":
+            if length >= most and output["name"] != "stderr":
+                continue
+            lines = output["text"].split("\n")
+            if len(lines) + length > most:
+                lines = [*lines[: max(most - length - 1, 0)], TRUNCATED]
+            length += len(lines)
+            output["text"] = "\n".join(lines)
+        kept.append(output)
+    return kept
+
+
+def _cut(traceback: list[str], most: int) -> list[str]:
+    start = most // 2
+    return [*traceback[:start], "... Traceback truncated ...", *traceback[-(most - start - 1) :]]

@@ -1,0 +1,124 @@
+"""What a cell is worth: nbgrader's scoring rules, failing closed where nbgrader fails open.
+
+nbgrader (``nbgrader.utils.determine_grade``): an answer that a person grades is worth 0 while it is untouched and has no mark
+once it is written; a test cell is worth 0 after an error or anything on stderr, else the number it returns, else all points.
+We differ where a mark would come about by accident or by force: see :func:`partial` and ``DIFFERENCES``.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from autograder.notebook.master import MasterCell, checksum
+from autograder.result import Verdict
+
+Status = Literal["ok", "error", "timeout", "memory", "died", "refused", "judged", "not run"]
+RAN: tuple[Status, ...] = ("ok", "error", "timeout", "memory", "died", "refused")
+ROUNDING = 1e-9
+_NUMPY = re.compile(r"np\.(?:float|int|uint)(?:8|16|32|64|128)?\((.*)\)|np\.(?:longdouble|intc|uintc)\((.*)\)")
+
+
+@dataclass(frozen=True)
+class CellRun:
+    """What running one cell came to. A judged cell has a verdict; a cell that was not run says why in ``note``."""
+
+    status: Status
+    verdict: Verdict | None = None
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Mark:
+    """Points of one cell, None where a person decides. ``look`` asks for a manual look, ``note`` says why."""
+
+    points: float | None
+    look: bool = False
+    note: str = ""
+
+
+def mark(cell: Mapping[str, Any], master: MasterCell, run: CellRun | None) -> Mark:
+    """The mark of a graded cell as it lies in the rebuilt notebook.
+
+    Parameters
+    ----------
+    cell : mapping
+        The cell with its outputs, in nbformat 4.
+    master : MasterCell
+        The instructor's copy of it.
+    run : CellRun or None
+        How it ran; None if nothing was executed.
+    """
+    points = float(master.points or 0.0)
+    if master.solution:
+        if checksum(cell["cell_type"], cell["source"], master) == master.checksum:
+            return Mark(0.0)
+        return Mark(None, look=True)
+    if cell["cell_type"] != "code":
+        return Mark(None, look=True)
+    if master.exercise is not None and (run is None or run.status not in RAN):
+        return judged(run, points)
+    if run is None or run.status not in RAN:
+        return Mark(None, look=True, note=(run.note if run else "") or "This cell was not executed.")
+    return scored(cell["outputs"], points)
+
+
+def judged(run: CellRun | None, points: float) -> Mark:
+    """The mark of an exercise cell: its verdict's share of the points."""
+    if run is None or run.verdict is None:
+        return Mark(None, look=True, note=(run.note if run else "") or "This exercise was not judged.")
+    if run.verdict.outcome == "could not judge":
+        return Mark(None, look=True, note=run.note or "This exercise could not be judged.")
+    return Mark(run.verdict.points(points))
+
+
+def scored(outputs: Sequence[Mapping[str, Any]], points: float) -> Mark:
+    """The mark of an ordinary test cell from its outputs; the first that decides, decides."""
+    for output in outputs:
+        kind = output["output_type"]
+        if kind == "error" or (kind == "stream" and output["name"] == "stderr"):
+            return Mark(0.0)
+        if kind == "execute_result":
+            return partial(output["data"].get("text/plain"), points)
+    return Mark(points)
+
+
+def partial(shown: str | None, points: float) -> Mark:
+    """The mark for the value that a test cell returned, from its text.
+
+    A plain number in [0, points] counts, ``np.float64(0.5)`` too (nbgrader: full points). Negative, NaN or more than the
+    points: 0 and a manual look (nbgrader: full points, full points, the submission fails). Anything else keeps nbgrader's full
+    points, with a warning.
+    """
+    if shown is None:
+        return Mark(None, look=True, note="The test returned something without a text; please look at it.")
+    inner = _NUMPY.fullmatch(shown.strip())
+    try:
+        value = float((inner[1] or inner[2]) if inner else shown)
+    except ValueError:
+        note = f"The test returned {_short(shown)}, which is no number: full points, as in nbgrader."
+        return Mark(points, note=note)
+    if 0 <= value <= points + ROUNDING * max(points, 1.0):
+        return Mark(min(abs(value), points))
+    what = "not a number" if math.isnan(value) else f"{value:g}, outside 0 to {points:g}"
+    return Mark(0.0, look=True, note=f"The test returned {what}: 0 points for now; please look at it.")
+
+
+def _short(shown: str) -> str:
+    line = " ".join(shown.split())
+    return line if len(line) <= 60 else line[:57] + "..."
+
+
+DIFFERENCES = (
+    ("np.float64(0.5) returned by a test cell", "full points", "0.5 points"),
+    ("a negative number or NaN returned by a test cell", "full points", "0 points and a manual look"),
+    ("a number above the points", "the submission is dropped", "0 points and a manual look (rounding aside)"),
+    ("a tag such as skip-execution on a graded cell of the submission", "not run, full points", "ignored: it is run"),
+    ("a graded cell that is there twice", "the run for the whole class stops", "the last counts, with a manual look"),
+    ("a graded cell that was deleted from a resubmission", "keeps the old mark", "no mark, and a manual look"),
+    ("a test cell that was not executed", "full points", "no mark, and a manual look"),
+)
+"""Where we differ from nbgrader's scores: (what, nbgrader, here)."""

@@ -1,0 +1,255 @@
+"""Runs a rebuilt notebook in the sandbox and judges its exercise cells.
+
+Ordinary cells are sent to the learner's session one after the other. An exercise cell ``check(name)`` is not: its call is read
+from the instructor's copy, the judge calls the learner's function through the session, and the outputs are written here. So the
+only way to its marks is to compute the right thing.
+
+When a cell ends its process (an endless loop, ``os._exit``, too much memory) a fresh session runs the earlier good cells again,
+without their outputs, and the notebook goes on: a submission loses what cannot be run, and no more.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from autograder import card
+from autograder.errors import CallFailed, SandboxError
+from autograder.exercise import Exercise
+from autograder.judge import judge
+from autograder.notebook import safe
+from autograder.notebook.marks import CellRun
+from autograder.notebook.master import MasterCell
+from autograder.notebook.rebuild import Rebuilt
+from autograder.result import Verdict
+
+log = logging.getLogger(__name__)
+MAX_RESTARTS = 12
+MAX_SECONDS = 300.0
+ENDED = {
+    "timeout": ("TimeLimit", "this cell was stopped: it took longer than the time limit"),
+    "memory": ("MemoryLimit", "this cell was stopped: it took more memory than the limit"),
+    "died": ("ProcessEnded", "this cell ended the Python process"),
+    "refused": ("Refused", "this cell was not run: the sandbox refused it"),
+}
+SKIP_TAG = "skip-execution"
+
+
+class Result(Protocol):
+    """What a session says of one cell."""
+
+    outputs: list[dict[str, Any]]
+    status: Any
+    note: str
+
+
+class Session(Protocol):
+    """One learner's process, as the sandbox opens it."""
+
+    @property
+    def alive(self) -> bool: ...  # noqa: D102
+    def run_cell(self, source: str) -> Result: ...  # noqa: D102
+    def call(self, name: str, args: Sequence[Any]) -> Any: ...  # noqa: D102
+    def files(self) -> dict[str, bytes]: ...  # noqa: D102
+
+
+Opener = Callable[[], contextlib.AbstractContextManager[Any]]
+
+
+@dataclass
+class Ran:
+    """How each cell ran (aligned with the cells), what files the learner's code wrote, and what went wrong on our side."""
+
+    cells: list[CellRun | None]
+    files: dict[str, bytes] = field(default_factory=dict)
+    faults: list[str] = field(default_factory=list)
+    restarts: int = 0
+
+
+def run(
+    rebuilt: Rebuilt,
+    open_session: Opener,
+    exercises: Callable[[str], Exercise | None],
+    seed: Callable[[str], bytes],
+    *,
+    uses_check: bool = False,
+    seconds: float = MAX_SECONDS,
+) -> Ran:
+    """Run all code cells in order and write outputs and execution counts into the rebuilt notebook.
+
+    Parameters
+    ----------
+    open_session : callable
+        Opens a fresh sandbox session as a context manager.
+    exercises : callable
+        The exercise of a name, or None.
+    seed : callable
+        The seed of the hidden data of an exercise.
+    uses_check : bool
+        Whether ``check(name)`` is ours even where no exercise has that name (then it could not be judged).
+    seconds : float
+        For the whole notebook; cells that no time is left for are not run and have no mark.
+    """
+    with contextlib.ExitStack() as stack:
+        runner = _Runner(open_session, stack, time.monotonic() + seconds)
+        ran = Ran([])
+        count = 0
+        for cell, mine, known in zip(rebuilt.cells, rebuilt.masters, rebuilt.known, strict=True):
+            if cell["cell_type"] != "code" or (mine is None and SKIP_TAG in known.tags):
+                ran.cells.append(None)
+                continue
+            count += 1
+            name = mine.exercise if mine is not None else None
+            if mine is not None and name is not None and (uses_check or exercises(name) is not None):
+                result = _judge(runner, exercises(name), name, seed)
+                outputs = judged_outputs(result, mine, count)
+            else:
+                result, outputs = runner.run(cell["source"])
+            cell["outputs"], cell["execution_count"] = outputs, count
+            for output in outputs:
+                if output["output_type"] == "execute_result":
+                    output["execution_count"] = count
+            ran.cells.append(result)
+        ran.files, ran.faults, ran.restarts = runner.files(), runner.faults, runner.restarts
+    return ran
+
+
+def judged_outputs(run: CellRun, master: MasterCell, count: int) -> list[dict[str, Any]]:
+    """What the trusted side writes under an exercise cell: the card, the figure, and the points as a plain float."""
+    outputs: list[dict[str, Any]] = []
+    if run.verdict is None:
+        return [_display({"text/plain": run.note})]
+    for make in (card.bundle, card.figure_bundle):
+        try:
+            shown = make(run.verdict)
+        except Exception:  # a card that cannot be drawn must not cost the mark
+            log.exception("the card of %s cannot be drawn", master.name)
+            shown = {"text/plain": run.verdict.message} if make is card.bundle else None
+        if shown:
+            outputs.append(_display(shown))
+    if run.verdict.outcome != "could not judge":
+        points = repr(float(run.verdict.points(float(master.points or 0.0))))
+        data = {"text/plain": points}
+        outputs.append({"output_type": "execute_result", "execution_count": count, "metadata": {}, "data": data})
+    return outputs
+
+
+def _display(data: Mapping[str, Any]) -> dict[str, Any]:
+    return {"output_type": "display_data", "metadata": {}, "data": dict(data)}
+
+
+def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable[[str], bytes]) -> CellRun:
+    if exercise is None:
+        note = f"No exercise is called {name}, so this cell could not be judged."
+        return CellRun("judged", _unjudged(name, note), note)
+    try:
+        session = runner.ready()
+    except SandboxError as error:
+        note = runner.fault(f"{name}: {error}")
+        return CellRun("judged", _unjudged(name, "The sandbox was not available, so this could not be judged.", exercise), note)
+    if session is None:
+        return CellRun("judged", _unjudged(name, runner.spent, exercise), runner.spent)
+
+    def call(*args: Any) -> Any:
+        return session.call(name, args)
+
+    try:
+        verdict = judge(exercise, call, seed=seed(name))
+    except Exception as error:  # the grader's own fault is never the learner's zero
+        log.exception("the judge failed on %s", name)
+        note = runner.fault(f"{name}: the judge failed ({type(error).__name__}: {error})")
+        return CellRun("judged", _unjudged(name, "The judge itself failed, so this could not be judged.", exercise), note)
+    if verdict.outcome == "could not judge":
+        return CellRun("judged", verdict, runner.fault(f"{name}: {verdict.message}"))
+    return CellRun("judged", verdict)
+
+
+def _unjudged(name: str, message: str, exercise: Exercise | None = None) -> Verdict:
+    title = exercise.title if exercise is not None else name
+    return Verdict(name, "could not judge", 0.0, "error", message, parts=(("wrong", message),), title=title)
+
+
+class _Runner:
+    """Keeps a live session: opens it, and after a death opens another and runs the good cells again."""
+
+    def __init__(self, open_session: Opener, stack: contextlib.ExitStack, deadline: float) -> None:
+        self.open_session, self.stack, self.deadline = open_session, stack, deadline
+        self.session: Any = None
+        self.good: list[str] = []
+        self.restarts = -1  # the first opening is none
+        self.faults: list[str] = []
+        self.spent = ""
+
+    def ready(self) -> Any:
+        """A live session that has run all good cells; None when no restart or no time is left."""
+        while self.session is None or not self.session.alive:
+            if self.restarts >= MAX_RESTARTS:
+                self.spent = f"Not run: this notebook ended its process more than {MAX_RESTARTS} times before."
+                return None
+            if time.monotonic() > self.deadline:
+                self.spent = "Not run: the time for this notebook was used up by the cells before."
+                return None
+            self.stack.close()
+            self.restarts += 1
+            self.session = self.stack.enter_context(self.open_session())
+            self._replay()
+        if time.monotonic() > self.deadline:
+            self.spent = "Not run: the time for this notebook was used up by the cells before."
+            return None
+        return self.session
+
+    def _replay(self) -> None:
+        for source in list(self.good):
+            if self.session.run_cell(source).status not in ("ok", "error") or not self.session.alive:
+                self.good.remove(source)  # good once, fatal now: leave it out from here on
+                if not self.session.alive:
+                    return
+
+    def run(self, source: str) -> tuple[CellRun, list[dict[str, Any]]]:
+        """Run one ordinary cell."""
+        try:
+            session = self.ready()
+            if session is None:
+                return CellRun("not run", note=self.spent), [_display({"text/plain": self.spent})]
+            result = session.run_cell(source)
+        except SandboxError as error:
+            note = self.fault(f"a cell could not be run: {error}")
+            return CellRun("not run", note=note), [_display({"text/plain": "The sandbox was not available: not run."})]
+        if result.status in ("ok", "error") and session.alive:
+            self.good.append(source)
+        outputs = safe.outputs(result.outputs)
+        status = result.status
+        if status not in ("ok", "error") or (not session.alive and status == "ok"):
+            outputs.append(_ended(status if status in ENDED else "died", result.note))
+        elif status == "error" and not any(output["output_type"] == "error" for output in outputs):
+            outputs.append(_error("Error", result.note or "this cell raised an error"))
+        return CellRun(status, note=result.note), outputs
+
+    def fault(self, note: str) -> str:
+        self.faults.append(note)
+        return note
+
+    def files(self) -> dict[str, bytes]:
+        """What the last live session left in its scratch folder."""
+        if self.session is None or not self.session.alive:
+            return {}
+        try:
+            written: dict[str, bytes] = self.session.files()
+        except (SandboxError, CallFailed) as error:
+            self.fault(f"files that the notebook wrote were not kept: {error}")
+            return {}
+        return written
+
+
+def _ended(status: str, note: str) -> dict[str, Any]:
+    name, sentence = ENDED[status]
+    return _error(name, note or sentence)
+
+
+def _error(name: str, value: str) -> dict[str, Any]:
+    value = safe.text(value, 10_000)
+    return {"output_type": "error", "ename": name, "evalue": value, "traceback": [f"\x1b[0;31m{name}\x1b[0m: {value}"]}
