@@ -39,8 +39,11 @@ def circle(u):
     return np.stack([2 * np.cos(u), 2 * np.sin(u), np.zeros(np.shape(u))], axis=-1)
 
 
+turn = np.linspace(0, 2 * np.pi, 97)
+whole = np.stack([2 * np.cos(turn), 2 * np.sin(turn), 0 * turn], axis=-1)
+
 reveal(share, 100 / (2 * np.pi), "%")
-plot.view(circle)
+plot.view(circle, curves={"the whole circle": whole})
 
 # %% [markdown]
 # **What went wrong?** $u$ stops at 1, and one radian is less than a sixth of a turn. Put `2 * np.pi * u` in place of `u`, both
@@ -66,11 +69,11 @@ def strip(u, w):
 
 column, row = np.linspace(0, 1, 5)[:, None], np.linspace(0, 1, 4)[None, :]
 reveal(shape, strip(column, row).shape)
-plot.view(strip)
+plot.view(strip, square=True)
 
 # %% [markdown]
-# **What to see.** The blue lines run along $u$ (and $w$ stands still), the orange ones along $w$. Turn the picture with the
-# mouse; hold it over the surface to read $(u, w)$.
+# **What to see.** Right the square of all $(u, w)$, left what becomes of it. The blue lines run along $u$ (and $w$ stands
+# still), the orange ones along $w$. Turn the picture with the mouse; hold it over the surface to read $(u, w)$.
 #
 # `broadcast_arrays` gives $u$ and $w$ their common shape, so one function serves single numbers, lists of points and whole
 # meshes. `np.stack(..., axis=-1)` puts $x, y, z$ last. Every function of this notebook may follow this pattern.
@@ -110,7 +113,7 @@ def cylinder(u, w, r, h):
 # %%
 with once_written():
     reveal(point, cylinder(0.25, 0.4, r=2, h=5))
-    display(plot.view(lambda u, w: cylinder(u, w, r=2, h=5)))
+    display(plot.view(lambda u, w: cylinder(u, w, r=2, h=5), square=True, mark=(0.25, 0.4)))
 
 # %% [markdown]
 # **Test it yourself.** A formula that must hold needs no model answer. Change $r$ and $h$; try a negative $h$.
@@ -238,16 +241,18 @@ plot.view(semicircle)
 
 # %% solution="sphere"
 def sphere(u, w, r):
-    """The sphere of radius r about the origin: u from the south pole to the north pole, w once round z from +x to +y.
+    """The sphere of radius r about the origin, a semicircle turned about z.
 
-    u, w : numbers or arrays in [0, 1];  r > 0 : radius
+    u, w : numbers or arrays in [0, 1]; u from south pole to north pole, w once round from +x to +y
+    r > 0 : radius
     Returns points, shape of u and w together + (3,).
     """
     u, w = np.broadcast_arrays(u, w)
     phi = np.pi * (u - 0.5)
     ### BEGIN SOLUTION
     theta = 2 * np.pi * w
-    return np.stack([r * np.cos(phi) * np.cos(theta), r * np.cos(phi) * np.sin(theta), r * np.sin(phi)], axis=-1)
+    rho = r * np.cos(phi)
+    return np.stack([rho * np.cos(theta), rho * np.sin(theta), r * np.sin(phi)], axis=-1)
     ### END SOLUTION
 
 
@@ -329,9 +334,10 @@ plot.view(carried)
 
 # %% solution="torus"
 def torus(u, w, R, r):
-    """The torus about z: u round the tube from its outermost point upwards, w round the axis from +x to +y.
+    """The torus about z, a circle turned about a line beside it.
 
-    u, w : numbers or arrays in [0, 1];  R >= 0 : axis to the centre of the tube;  r > 0 : radius of the tube
+    u, w : numbers or arrays in [0, 1]; u round the tube, from outermost upwards, w from +x to +y
+    R >= 0 : axis to the centre of the tube;  r > 0 : radius of the tube
     Returns points, shape of u and w together + (3,).
     """
     u, w = np.broadcast_arrays(u, w)
@@ -352,7 +358,8 @@ with once_written():
     holds("(√(x² + y²) - R)² + z² = r²", (np.hypot(x, y) - 3) ** 2 + z**2, 1)
     holds("it starts outermost: S(0, 0) = (R + r, 0, 0)", torus(0, 0, 3, 1), (4, 0, 0))
     holds("then upwards: S(1/4, 0) = (R, 0, r)", torus(0.25, 0, 3, 1), (3, 0, 1))
-    print(f"area {area(lambda u, w: torus(u, w, 3, 1)):.2f}; Pappus says 4π²Rr = {4 * np.pi**2 * 3:.2f}")
+    around = area(lambda u, w: torus(u, w, 3, 1))
+    print(f"area {around:.2f}; Pappus says 4π²Rr = {4 * np.pi**2 * 3:.2f}")
 
 # %% check="torus"
 check(torus)
@@ -360,26 +367,29 @@ check(torus)
 # %% [markdown]
 # ## 7 · When is a torus a sphere?
 #
-# Somebody asked that in the lecture. Keep $r = 1$ and let $R$ shrink: 3, 1, ½, 0. Below is the section of each by the
-# $xz$-plane, the axis dashed. They are called **ring**, **horn**, **spindle** and, at the end, **sphere**.
+# Somebody asked that in the lecture. Keep $r = 1$ and let $R$ shrink: 3, 1, ½, 0. There are four names: **sphere**,
+# **spindle** (the tube cuts through itself), **ring** (a hole in the middle) and **horn**.
 #
-# Which of the four names belongs to $R = r$?
+# Which name belongs to $R = r$? The next cell draws the section of each by the $xz$-plane, the axis dashed.
 
 # %%
-equal_radii = None  # "ring", "horn", "spindle" or "sphere"
-
-# %%
-t = np.linspace(0, 2 * np.pi, 181)
-figure = go.Figure().update_layout(height=230, template="none", showlegend=False, margin={"l": 10, "r": 10, "t": 36, "b": 10})
-for place, R in zip((0, 10, 15.5, 19), (3, 1, 0.5, 0), strict=True):
-    for side, colour in ((1, "#0072B2"), (-1, "#D55E00")):
-        figure.add_scatter(x=place + side * (R + np.cos(t)), y=np.sin(t), mode="lines", line={"color": colour, "width": 3})
-    figure.add_scatter(x=[place, place], y=[-1.5, 1.5], mode="lines", line={"color": "#888", "width": 1, "dash": "dash"})
-    figure.add_annotation(x=place, y=1.9, text=f"R = {R}, r = 1", showarrow=False)
-figure.update_xaxes(visible=False).update_yaxes(visible=False, scaleanchor="x", range=[-1.7, 2.2])
+equal_radii = None  # "sphere", "spindle", "ring" or "horn"
 
 # %%
 reveal(equal_radii, "horn: the hole has just closed to a point")
+
+turn = np.linspace(0, 2 * np.pi, 181)
+figure = go.Figure().update_layout(height=240, template="none", showlegend=False)
+tori = {"ring": (0, 3), "horn": (9.5, 1), "spindle": (15, 0.5), "sphere": (19, 0)}
+for name, (place, R) in tori.items():
+    for side, colour in ((1, "#0072B2"), (-1, "#D55E00")):
+        x = place + side * (R + np.cos(turn))
+        figure.add_scatter(x=x, y=np.sin(turn), mode="lines", line={"color": colour, "width": 3})
+    axis = {"color": "#888", "dash": "dash"}
+    figure.add_scatter(x=[place] * 2, y=[-1.5, 1.5], mode="lines", line=axis)
+    figure.add_annotation(x=place, y=2, text=f"{name}: R = {R}", showarrow=False)
+figure.update_xaxes(visible=False, range=[-4.5, 20.5])
+figure.update_yaxes(visible=False, scaleanchor="x", range=[-1.7, 2.4])
 
 # %% [markdown]
 # **Task (torus_class).** Return the name as a string. Where there is no torus at all, for $R < 0$ or $r \le 0$, raise a
@@ -388,7 +398,10 @@ reveal(equal_radii, "horn: the hole has just closed to a point")
 
 # %% solution="torus_class"
 def torus_class(R, r):
-    """What torus(u, w, R, r) is: 'ring', 'horn', 'spindle' or 'sphere'. Raises ValueError for R < 0 or r <= 0."""
+    """What torus(u, w, R, r) is: 'ring', 'horn', 'spindle' or 'sphere'.
+
+    Raises ValueError for R < 0 or r <= 0: then there is no torus.
+    """
     ### BEGIN SOLUTION
     if R < 0 or r <= 0:
         raise ValueError(f"a torus needs R >= 0 and r > 0; got R = {R}, r = {r}")
