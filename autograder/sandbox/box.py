@@ -1,0 +1,223 @@
+"""A sandbox: one zygote, and as many sessions at once as are asked for."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import stat
+import subprocess
+import tempfile
+import threading
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Literal
+
+from autograder.errors import IsolationError, SandboxError
+from autograder.sandbox.launcher import launch
+from autograder.sandbox.policy import Limits, Policy
+from autograder.sandbox.session import Session
+
+Level = Literal["A", "A-"]
+LEVELS: dict[str, str] = {
+    "A": "bubblewrap, own namespaces for every notebook, Landlock, system call filter, resource limits",
+    "A-": "bubblewrap around all notebooks, Landlock between them, system call filter, resource limits",
+    "B": "Landlock, system call filter and resource limits without namespaces",
+    "C": "what macOS gives",
+    "D": "no isolation",
+}
+START_SECONDS = 60.0
+
+
+class Sandbox:
+    """Starts a zygote at the isolation level asked for, and opens sessions from it. ``open`` may be called from many threads.
+
+    Parameters
+    ----------
+    policy : Policy
+        What learners' code finds inside.
+    level : {"A", "A-"}
+        The isolation wanted; there is no fall back to a weaker one.
+    bubblewrap : {"system", "wheel"}, optional
+        Insist on one of the two programs; by default the system's goes first.
+
+    Raises
+    ------
+    IsolationError
+        If this machine does not give that level; the message says what to do.
+    """
+
+    def __init__(self, policy: Policy | None = None, level: str = "A", *, bubblewrap: str | None = None) -> None:
+        if level not in ("A", "A-"):
+            what = f"level {level} ({LEVELS[level]})" if level in LEVELS else f"level {level!r}"
+            raise IsolationError(
+                f"{what} is not offered: notebooks are run at level A or A- only. `directrix doctor` says which you have"
+            )
+        self.policy = policy or Policy()
+        self.level = level
+        self._bubblewrap = bubblewrap
+        self._errors: IO[bytes] = tempfile.TemporaryFile()
+        self._sessions: set[Session] = set()
+        self._lock = threading.Lock()
+        self._control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        try:
+            self._start(theirs)
+        except BaseException:
+            self.close()
+            raise
+        finally:
+            theirs.close()
+
+    def __enter__(self) -> Sandbox:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def open(
+        self,
+        files: Mapping[str, bytes] | Path | str | None = None,
+        limits: Limits | None = None,
+        *,
+        environment: Mapping[str, str] | None = None,
+        seed: int = 0,
+    ) -> Session:
+        """A fresh process for one notebook.
+
+        Parameters
+        ----------
+        files : mapping of relative path to content, or a folder
+            Copied into the notebook's working folder (of a folder: regular files, links are not followed).
+        environment : mapping
+            Further environment variables.
+        seed : int
+            Where ``random`` and ``numpy.random`` start.
+
+        Raises
+        ------
+        SandboxError
+            If the zygote or the new process fails.
+        """
+        limits = limits or Limits()
+        content = _read_folder(Path(files), limits) if isinstance(files, str | Path) else dict(files or {})
+        size = sum(map(len, content.values()))
+        if size > limits.scratch or len(content) > limits.files or any(len(data) > limits.file for data in content.values()):
+            raise SandboxError(
+                f"the files of this notebook ({len(content)} of {size} bytes in all) do not fit its scratch folder"
+            )
+        session = self._clone(limits)
+        try:
+            session.start(content, dict(environment or {}), seed)
+        except BaseException:
+            session.close()
+            raise
+        with self._lock:
+            self._sessions = {open_one for open_one in self._sessions if open_one.alive} | {session}
+        return session
+
+    def close(self) -> None:
+        """End every session and the zygote."""
+        for session in self._sessions:
+            session.close()
+        self._control.close()
+        if hasattr(self, "_keeper"):
+            self._keeper.join(10)
+            if self._keeper.is_alive():
+                self._process.kill()
+                self._keeper.join()
+        self._errors.close()
+
+    def _start(self, theirs: socket.socket) -> None:
+        """Start the zygote and wait for its word.
+
+        It is started and awaited by a thread of its own: bubblewrap dies with the *thread* that started it
+        (PR_SET_PDEATHSIG), and the thread that makes this sandbox may be a short-lived one.
+        """
+        started = threading.Event()
+        failure: list[BaseException] = []
+
+        def keep() -> None:
+            try:
+                self._process = launch(self.policy, self.level, theirs.fileno(), self._errors, self._bubblewrap)
+            except BaseException as error:
+                failure.append(error)
+                started.set()
+                return
+            started.set()
+            self._process.wait()
+
+        self._keeper = threading.Thread(target=keep, name="sandbox", daemon=True)
+        self._keeper.start()
+        started.wait()
+        if failure:
+            raise failure[0]
+        theirs.close()
+        self._control.settimeout(START_SECONDS)
+        try:
+            ready = self._control.recv(4096)
+        except OSError:
+            ready = b""
+        if not ready:
+            raise IsolationError(self._why_not())
+        self._control.settimeout(None)
+        self._try_one()
+
+    def _try_one(self) -> None:
+        """A level is given only if a child has put up all its walls."""
+        try:
+            self.open().close()
+        except SandboxError as error:
+            raise IsolationError(f"level {self.level} is not given on this machine: {error}. {ADVICE}") from None
+
+    def _why_not(self) -> str:
+        self._control.close()
+        try:
+            self._process.wait(5)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+        self._errors.seek(0)
+        said = self._errors.read(20_000).decode("utf-8", "replace").strip().splitlines()
+        return f"level {self.level} is not given on this machine: {said[-1] if said else 'the sandbox did not start'}. {ADVICE}"
+
+    def _clone(self, limits: Limits) -> Session:
+        link, job = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
+        report, reporter = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        pidfds: list[int] = []
+        try:
+            with job, reporter:
+                socket.send_fds(self._control, [json.dumps(limits.for_child()).encode()], [job.fileno(), reporter.fileno()])
+            report.settimeout(START_SECONDS)
+            said, pidfds, *_ = socket.recv_fds(report, 4096, 1)
+            if not pidfds:
+                raise SandboxError(
+                    f"no process for a notebook: {json.loads(said or b'{}').get('refused', 'the zygote has died')}"
+                )
+            return Session(link, report, pidfds[0], limits)
+        except BaseException as error:
+            for thing in (link, report):
+                thing.close()
+            for pidfd in pidfds:
+                os.close(pidfd)
+            if isinstance(error, OSError):
+                raise SandboxError(f"the sandbox is gone: {error}") from None
+            raise
+
+
+ADVICE = "`directrix doctor` shows what is missing and what to do"
+
+
+def _read_folder(folder: Path, limits: Limits) -> dict[str, bytes]:
+    """Regular files of a folder, opened without following links."""
+    found: dict[str, bytes] = {}
+    for place, folders, names in os.walk(folder):
+        folders.sort()
+        for name in sorted(names):
+            path = os.path.join(place, name)
+            if not stat.S_ISREG(os.lstat(path).st_mode):
+                continue
+            descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+            with open(descriptor, "rb") as file:
+                if stat.S_ISREG(os.fstat(descriptor).st_mode):
+                    found[os.path.relpath(path, folder)] = file.read(limits.file + 1)
+    return found

@@ -1,0 +1,181 @@
+"""One notebook's process: confines itself, then runs cells and calls functions for the trusted side, in order, until it is ended.
+
+Code of learners shares this process, so nothing it answers is believed on the other side.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import socket
+import stat
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any, NoReturn
+
+import numpy as np
+
+from autograder.sandbox import wire
+from autograder.sandbox.guest import answers, confine
+from autograder.sandbox.guest.answers import TimeLimitExceeded
+from autograder.sandbox.guest.shell import Shell
+
+ENVIRONMENT = {
+    "PATH": "/usr/bin",
+    "LANG": "C.UTF-8",
+    "USER": "learner",
+    "LOGNAME": "learner",
+    "MPLBACKEND": "module://matplotlib_inline.backend_inline",
+    "OPENBLAS_NUM_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "PLOTLY_RENDERER": "plotly_mimetype",
+}
+RESULT_DEPTH = 6  # of what a cell shows: result, outputs, output, bundle, pair
+MAX_REQUEST = 2**30
+
+
+def main(job: int, level: str, limits: dict[str, Any], scratch: str, programme: bytes, shell: Shell) -> NoReturn:
+    """The child's life."""
+    os.dup2(job, 3)
+    os.closerange(4, 2**20)
+    link = socket.socket(fileno=3)
+    try:
+        facts = confine.confine(level, limits, scratch, programme)
+        _environment(scratch)
+    except BaseException as error:
+        link.sendall(wire.frame(wire.BROKEN, bytes(16), wire.encode(f"{type(error).__name__}: {error}")))
+        os._exit(70)
+    link.sendall(wire.frame(wire.READY, bytes(16), wire.encode((level, int(facts["landlock"]), str(facts.get("proc", ""))))))
+    server = Server(link, limits, shell, f"{scratch}/work")
+    while True:
+        server.answer()
+
+
+class Server:
+    """Answers requests."""
+
+    def __init__(self, link: socket.socket, limits: dict[str, Any], shell: Shell, work: str) -> None:
+        self.link, self.limits, self.shell, self.work = link, limits, shell, work
+        self.seed = 0
+        self.calls = 0
+
+    def answer(self) -> None:
+        """Read one request and answer it."""
+        kind, length, exchange = wire.header(self._receive(wire.HEADER.size), MAX_REQUEST)
+        request = wire.decode(self._receive(length), depth=RESULT_DEPTH, items=MAX_REQUEST, raw=True)
+        if kind == wire.START:
+            self.start(*request)
+            answer: Any = None
+        elif kind == wire.CELL:
+            answer = self.cell(*request)
+        elif kind == wire.CALL:
+            answer = self.call(*request)
+        else:
+            answer = tuple(self.files())
+        self.link.sendall(wire.frame(wire.DONE, exchange, wire.encode(answer, depth=RESULT_DEPTH)))
+
+    def _receive(self, count: int) -> bytes:
+        data = bytearray()
+        while len(data) < count:
+            part = self.link.recv(min(count - len(data), 2**20))
+            if not part:
+                os._exit(0)  # the trusted side has closed its end
+            data += part
+        return bytes(data)
+
+    def start(self, files: tuple[tuple[str, bytes], ...], environment: tuple[tuple[str, str], ...], seed: int) -> None:
+        """Lay out the assignment's files."""
+        os.environ.update(environment)
+        self.seed = seed
+        _reseed(seed, 0)
+        for name, content in files:
+            os.makedirs(os.path.dirname(name) or ".", exist_ok=True)
+            with open(name, "wb") as file:
+                file.write(content)
+
+    def cell(self, source: str, cpu: float, wall: float, output: int, outputs: int) -> tuple[Any, ...]:
+        """Run a cell: (status, its number, outputs, updates of earlier displays)."""
+        try:
+            with _timed(cpu, wall):
+                status = self.shell.run(source, output, outputs)
+        except TimeLimitExceeded:  # it fell due after the cell, while its outputs were gathered
+            status = "timeout"
+        return (status, self.shell.number, *self.shell.shown())
+
+    def call(self, name: str, arguments: tuple[Any, ...], cpu: float, wall: float, limit: int) -> tuple[Any, ...]:
+        """Call a function of the notebook: (True, answer) or (False, how it failed...)."""
+        self.calls += 1
+        _reseed(self.seed, self.calls)
+        with self.shell.silence(), answers.failures(self.shell) as failure:
+            function = answers.find(self.shell.user_ns, name)
+            with _timed(cpu, wall):
+                value = function(*arguments)
+            answer = (True, answers.plain(value))
+            size = len(wire.encode(answer, depth=wire.DEPTH + 1))
+            if size > limit:
+                raise answers.Refused(f"the answer has {size} bytes; at most {limit} are taken")
+        return tuple(failure) or answer
+
+    def files(self) -> Iterator[tuple[str, bytes]]:
+        """Regular files of the working folder, within the limits; folders deeper than 16 are left out."""
+        left, count = int(self.limits["scratch"]), int(self.limits["files"])
+        folders = [""]
+        while folders:
+            inside = folders.pop()
+            for name in sorted(os.listdir(f"{self.work}/{inside}")):
+                relative = f"{inside}{name}"
+                about = os.lstat(f"{self.work}/{relative}")
+                if stat.S_ISDIR(about.st_mode) and inside.count("/") < 16:
+                    folders.append(f"{relative}/")
+                if not stat.S_ISREG(about.st_mode) or about.st_size > left or count < 1:
+                    continue
+                with open(f"{self.work}/{relative}", "rb") as file:
+                    content = file.read(left)
+                left, count = left - len(content), count - 1
+                yield relative, content
+
+
+@contextmanager
+def _timed(cpu: float, wall: float) -> Iterator[None]:
+    """Interrupt the code inside when its time is up, so that its traceback shows where it was.
+
+    Code that ignores this (a loop in C, an ``except`` that catches everything) is ended from outside a little later.
+    """
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        __tracebackhide__ = True
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        if number == signal.SIGPROF:
+            raise TimeLimitExceeded(f"stopped after {cpu:g} s of computing; is there a loop that never ends?")
+        raise TimeLimitExceeded(f"stopped after {wall:g} s by the clock; is it waiting for something?")
+
+    for number in (signal.SIGPROF, signal.SIGALRM):
+        signal.signal(number, stop)
+    signal.setitimer(signal.ITIMER_PROF, cpu)
+    signal.setitimer(signal.ITIMER_REAL, wall)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+def _environment(scratch: str) -> None:
+    os.environ.clear()
+    os.environ.update(ENVIRONMENT)
+    os.environ.update(
+        HOME=f"{scratch}/home", TMPDIR=f"{scratch}/tmp", IPYTHONDIR=f"{scratch}/home", MPLCONFIGDIR=f"{scratch}/home"
+    )
+    sys.path.insert(0, "")
+    sys.argv[:] = ["notebook"]
+
+
+def _reseed(seed: int, number: int) -> None:
+    """Each call starts from its own known state: the same in every grading run, another one for every call."""
+    random.seed(f"{seed}/{number}")
+    np.random.seed((seed * 1_000_003 + number) % 2**32)  # noqa: NPY002 (the learner's global generator is meant)

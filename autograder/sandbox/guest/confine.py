@@ -1,0 +1,110 @@
+"""The last walls, put up by a child around itself before it reads a line of anybody's code.
+
+Level A: the child is pid 1 of its own user, pid, mount and ipc namespaces, has its own tmpfs and /proc, no capabilities, Landlock,
+resource limits and the system call filter. Level A-: the same without namespaces of its own (the zygote's are shared), one
+fresh folder that Landlock alone makes its own. Whatever fails raises: there is no weaker way on.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import resource
+
+from autograder.sandbox import system
+
+UID = 1000  # inside; on the host it is the grader's uid, or the one that root drops to
+SCRATCH = "/scratch"
+READABLE = ("/python", "/packages", "/guest", "/usr", "/lib", "/lib64", "/etc", "/nix", "/gnu", "/dev/random", "/dev/urandom")
+DEVICES = ("/dev/null", "/dev/zero", "/dev/full")
+PROC = tuple(f"/proc/{name}" for name in ("cpuinfo", "meminfo", "self/stat", "self/statm", "self/status"))
+NAMESPACES = system.CLONE_NEWUSER | system.CLONE_NEWPID | system.CLONE_NEWNS | system.CLONE_NEWIPC
+PROCESS_ID_MAX = 400  # the least a kernel takes is about 300; RLIMIT_NPROC is the tighter one
+
+
+def confine(level: str, limits: dict[str, int | float], scratch: str, programme: bytes) -> dict[str, int | str]:
+    """Put up all walls; afterwards the process is in its own working folder. Returns what was found on the way."""
+    facts: dict[str, int | str] = {"level": level}
+    if level == "A":
+        _become_somebody()
+        facts["proc"] = _own_mounts(limits)
+    work, temporary = f"{scratch}/work", f"{scratch}/tmp"
+    for folder in (work, temporary, f"{scratch}/home"):
+        os.mkdir(folder, 0o700)
+    if level == "A":
+        system.mount(temporary, "/tmp", None, system.MS_BIND)
+    _capture(scratch, int(limits["file"]))
+    os.chdir(work)
+    with contextlib.suppress(OSError):
+        _write("/proc/self/oom_score_adj", "1000")  # if memory runs short, the grader is not what the kernel ends
+    _limit(limits)
+    if level == "A":
+        system.drop_capabilities()
+    system.no_new_privileges()
+    readable = [*READABLE, *(PROC if level == "A" else ())]
+    facts["landlock"] = system.landlock(readable, DEVICES, [scratch, *(["/tmp"] if level == "A" else [])])
+    if level == "A-" and int(facts["landlock"]) < 6:
+        raise OSError("without namespaces for each notebook, Landlock ABI 6 is needed to keep signals apart (Linux 6.12)")
+    system.load_filter(programme)
+    return facts
+
+
+def _become_somebody() -> None:
+    """Map one user id in the new user namespace."""
+    _write("/proc/self/setgroups", "deny")
+    _write("/proc/self/gid_map", f"{UID} {UID} 1")
+    _write("/proc/self/uid_map", f"{UID} {UID} 1")
+
+
+def _own_mounts(limits: dict[str, int | float]) -> str:
+    """A bounded tmpfs, and a /proc that shows this process only (or nothing, where the kernel does not allow one)."""
+    nosuid = system.MS_NOSUID | system.MS_NODEV
+    inodes = 4 * int(limits["files"]) + 64
+    system.mount("tmpfs", SCRATCH, "tmpfs", nosuid, f"size={int(limits['scratch'])},nr_inodes={inodes},mode=700")
+    try:
+        system.mount("proc", "/proc", "proc", nosuid | system.MS_NOEXEC)
+    except OSError:
+        system.mount("tmpfs", "/proc", "tmpfs", nosuid | system.MS_NOEXEC | system.MS_RDONLY, "size=4k,nr_inodes=2")
+        return "hidden"
+    with contextlib.suppress(OSError):  # counted per pid namespace from Linux 6.14 on; before, nobody here may write it
+        _write("/proc/sys/kernel/pid_max", str(PROCESS_ID_MAX))
+    return "own"
+
+
+def _capture(scratch: str, size: int) -> None:
+    """Let what C code prints go to an unlinked file, which the shell reads after each cell."""
+    path = f"{scratch}/printed"
+    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o600)
+    os.unlink(path)
+    os.dup2(file, 1)
+    os.dup2(file, 2)
+    os.close(file)
+
+
+def _limit(limits: dict[str, int | float]) -> None:
+    """Resource limits, set inside the user namespace: RLIMIT_NPROC counts per namespace and does not bind the host's root."""
+    with contextlib.suppress(OSError), open("/proc/self/statm", encoding="ascii") as file:
+        already = int(file.read().split()[0]) * resource.getpagesize()
+        _set(resource.RLIMIT_AS, already + int(limits["memory"]))
+    if resource.getrlimit(resource.RLIMIT_AS)[0] == resource.RLIM_INFINITY:
+        _set(resource.RLIMIT_AS, int(limits["memory"]))
+    _set(resource.RLIMIT_CPU, int(limits["notebook_cpu"]) + 10)  # the grader ends it earlier; this holds if the grader has died
+    _set(resource.RLIMIT_NPROC, int(limits["threads"]))
+    _set(resource.RLIMIT_FSIZE, int(limits["file"]))
+    _set(resource.RLIMIT_NOFILE, 256)
+    _set(resource.RLIMIT_CORE, 0)
+    _set(resource.RLIMIT_MSGQUEUE, 0)
+    _set(resource.RLIMIT_MEMLOCK, 0)
+    _set(resource.RLIMIT_SIGPENDING, 256)
+
+
+def _set(which: int, value: int) -> None:
+    """Lower a limit, never above what already holds."""
+    hard = resource.getrlimit(which)[1]
+    value = value if hard == resource.RLIM_INFINITY else min(value, hard)
+    resource.setrlimit(which, (value, value))
+
+
+def _write(path: str, text: str) -> None:
+    with open(path, "w", encoding="ascii") as file:
+        file.write(text)

@@ -1,0 +1,330 @@
+"""Runs cells as a Jupyter kernel would, without a kernel: an IPython shell that records what a cell shows, in order.
+
+Text, displays, results and errors are kept in the order in which they came (a kernel regroups stdout and stderr).
+"""
+
+from __future__ import annotations
+
+import base64
+import builtins
+import io
+import json
+import math
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, ClassVar
+
+from IPython.core import page
+from IPython.core.displayhook import DisplayHook
+from IPython.core.displaypub import DisplayPublisher
+from IPython.core.error import StdinNotImplementedError
+from IPython.core.interactiveshell import InteractiveShell
+from traitlets import Type
+from traitlets.config import Config
+
+from autograder.sandbox.guest.answers import TimeLimitExceeded
+
+JSON_TYPES = ("application/json", "+json")
+MORE = "\n... the output of this cell is cut here: it shows more than {} kB.\n"
+MANY = "\n... the output of this cell is cut here: it shows more than {} things.\n"
+Output = list[Any]
+
+
+class Recorder:
+    """What one cell shows, within its limits."""
+
+    def __init__(self) -> None:
+        self.silent = False
+        self.begin(0, 0)
+
+    def begin(self, size: int, count: int) -> None:
+        """Start afresh for a cell that may show ``size`` bytes in ``count`` outputs."""
+        self.outputs: list[Output] = []
+        self.updates: dict[str, Output] = {}
+        self.by_id: dict[str, list[Output]] = {}
+        self.size, self.count, self.left = size, count, size
+        self.clear_at_next = False
+        self.full = False
+
+    def stream(self, name: str, text: str) -> None:
+        """Printed text; it is joined to the text before it."""
+        if self.silent or self.full or not text:
+            return
+        text = self._room(text)
+        if self.outputs and not self.clear_at_next and self.outputs[-1][:2] == ["stream", name]:
+            self.outputs[-1][2].append(text)
+        elif text:
+            self.add(["stream", name, [text]])
+
+    def display(self, kind: str, data: dict[str, Any], metadata: dict[str, Any] | None, display_id: Any = None) -> None:
+        """A rich display, or a cell's result (``kind`` execute_result)."""
+        if self.silent or self.full:
+            return
+        bundle = self._bundle(data)
+        output: Output = [kind, bundle, _sizes(metadata), "" if display_id is None else str(display_id)[:200]]
+        if bundle and self.add(output) and output[3]:
+            self.by_id.setdefault(output[3], []).append(output)
+
+    def update(self, data: dict[str, Any], metadata: dict[str, Any] | None, display_id: Any) -> None:
+        """Replace an earlier display, in this cell or (told to the trusted side) in one before."""
+        if self.silent or self.full:
+            return
+        name = str(display_id)[:200]
+        bundle, sizes = self._bundle(data, again=True), _sizes(metadata)
+        for output in self.by_id.get(name, []):
+            output[1:3] = [bundle, sizes]
+        if name in self.updates or len(self.updates) < self.count:
+            self.updates[name] = ["update", bundle, sizes, name]
+
+    def error(self, name: str, value: str, traceback: list[str]) -> None:
+        """An exception with its traceback, shown even when the cell has shown too much."""
+        if not self.silent:
+            lines = [line[:20_000] for line in traceback[:200]]
+            self.outputs.append(["error", name[:200], value[:20_000], lines])
+
+    def clear(self, wait: bool) -> None:
+        """Jupyter's clear_output."""
+        if wait:
+            self.clear_at_next = True
+        else:
+            self.outputs.clear()
+
+    def add(self, output: Output) -> bool:
+        """Append unless the cell has shown too many things."""
+        if self.clear_at_next:
+            self.outputs.clear()
+            self.clear_at_next = False
+        if len(self.outputs) >= self.count:
+            self._stop(MANY.format(self.count))
+            return False
+        self.outputs.append(output)
+        return True
+
+    def _stop(self, note: str) -> None:
+        self.full = True
+        self.outputs.append(["stream", "stdout", [note]])
+
+    def _room(self, text: str) -> str:
+        """The text, or its beginning with a note if the limit is reached."""
+        if len(text) <= self.left:
+            self.left -= len(text)
+            return text
+        text, self.left, self.full = text[: self.left], 0, True
+        return text + MORE.format(self.size // 1000)
+
+    def _bundle(self, data: dict[str, Any], again: bool = False) -> list[tuple[str, str]]:
+        bundle = [
+            (str(mime)[:100], text) for mime, text in ((mime, _as_text(mime, value)) for mime, value in data.items()) if text
+        ]
+        size = sum(len(text) for _, text in bundle)
+        if size > (self.size if again else self.left):
+            if not again:
+                self._stop(MORE.format(self.size // 1000))
+            return []
+        self.left -= 0 if again else size
+        return bundle
+
+
+class Printed(io.TextIOBase):
+    """sys.stdout or sys.stderr of the notebook."""
+
+    encoding = "utf-8"
+    errors = "replace"
+
+    def __init__(self, name: str, recorder: Recorder) -> None:
+        self.name, self.recorder = name, recorder
+
+    def write(self, text: str) -> int:
+        """Record the text."""
+        if not isinstance(text, str):
+            raise TypeError(f"write() argument must be str, not {type(text).__name__}")
+        self.recorder.stream(self.name, text)
+        return len(text)
+
+    def writable(self) -> bool:
+        """Always."""
+        return True
+
+
+class Publisher(DisplayPublisher):
+    """Records ``display(...)``."""
+
+    def publish(self, data: Any, metadata: Any = None, *_: Any, transient: Any = None, update: bool = False, **__: Any) -> None:
+        """Record one display or its update."""
+        display_id = (transient or {}).get("display_id")
+        if update:
+            self.shell.recorder.update(data, metadata, display_id)
+        else:
+            self.shell.recorder.display("display_data", data, metadata, display_id)
+
+    def clear_output(self, wait: bool = False) -> None:
+        """Record that the outputs so far are cleared."""
+        self.shell.recorder.clear(wait)
+
+
+class Result(DisplayHook):
+    """Records the value of a cell's last expression."""
+
+    shown: tuple[Any, Any] | None = None
+
+    def start_displayhook(self) -> None:
+        """Nothing to open."""
+        self.shown = None
+
+    def write_output_prompt(self) -> None:
+        """There is no prompt."""
+
+    def write_format_data(self, format_dict: Any, md_dict: Any = None) -> None:
+        """Keep the formatted value until the hook is done."""
+        self.shown = (format_dict, md_dict)
+
+    def finish_displayhook(self) -> None:
+        """Record it."""
+        if self.shown:
+            self.shell.recorder.display("execute_result", *self.shown)
+        self.shown = None
+
+
+class Shell(InteractiveShell):
+    """An IPython shell without terminal, kernel, history file or threads."""
+
+    displayhook_class = Type(Result)
+    display_pub_class = Type(Publisher)
+    kernel: ClassVar[None] = None
+
+    def __init__(self, **options: Any) -> None:
+        self.recorder = Recorder()
+        self.number = 0
+        self.ran_into: type[BaseException] | None = None
+        super().__init__(**options)
+
+    @classmethod
+    def for_notebooks(cls) -> Shell:
+        """The one shell of this process, and its standard streams."""
+        settings = Config()
+        settings.HistoryManager.enabled = False
+        settings.HistoryManager.hist_file = ":memory:"
+        settings.InteractiveShell.autoindent = False
+        settings.InteractiveShell.xmode = "Context"
+        shell = cls.instance(config=settings)
+        sys.stdout, sys.stderr = Printed("stdout", shell.recorder), Printed("stderr", shell.recorder)
+        sys.stdin = io.StringIO()
+        builtins.input = _no_input
+        return shell
+
+    def init_ipython_dir(self, ipython_dir: Any) -> None:
+        """There is none."""
+
+    def init_profile_dir(self, profile_dir: Any) -> None:
+        """There is no profile."""
+
+    def init_hooks(self) -> None:
+        """``name?`` shows its help below the cell."""
+        super().init_hooks()
+        self.set_hook("show_in_pager", page.as_hook(self._page), 99)
+
+    def init_virtualenv(self) -> None:
+        """There is none."""
+
+    def enable_gui(self, gui: Any = None) -> None:
+        """No windows here."""
+
+    def _page(self, strg: Any, start: int = 0, screen_lines: int = 0, pager_cmd: Any = None) -> None:
+        """A kernel shows a pager's text apart from the outputs; nothing of it is kept."""
+
+    def _showtraceback(self, etype: Any, evalue: Any, stb: Any) -> None:
+        self.ran_into = etype
+        try:
+            value = str(evalue)
+        except BaseException:  # a learner's own __str__
+            value = "(its message cannot be shown)"
+        self.recorder.error(str(etype.__name__), value, [str(line) for line in stb])
+
+    def is_cell(self, filename: str) -> bool:
+        """Whether code of that file name came from a cell."""
+        return filename in getattr(self.compile, "_filename_map", {}) or filename.startswith("<ipython-input")
+
+    def run(self, source: str, size: int, count: int) -> str:
+        """Run one cell, recording what it shows; returns its status."""
+        self.recorder.begin(size, count)
+        self.ran_into = None
+        self.number = self.execution_count
+        result = self.run_cell(source, store_history=True)
+        self._printed_by_c()
+        error = result.error_before_exec or result.error_in_exec
+        if isinstance(error, TimeLimitExceeded):
+            return "timeout"
+        if isinstance(error, MemoryError):
+            return "memory"
+        return "error" if error is not None or self.ran_into is not None else "ok"
+
+    def shown(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """Outputs of the last cell, and updates for displays of earlier cells, as plain tuples."""
+        outputs: list[tuple[Any, ...]] = []
+        for kind, *rest in self.recorder.outputs:
+            if kind == "stream":
+                outputs.append((kind, rest[0], "".join(rest[1])))
+            elif kind == "error":
+                outputs.append((kind, rest[0], rest[1], tuple(rest[2])))
+            else:
+                outputs.append((kind, tuple(rest[0]), rest[1], rest[2]))
+        updates = tuple((kind, tuple(bundle), sizes, name) for kind, bundle, sizes, name in self.recorder.updates.values())
+        return tuple(outputs), updates
+
+    @contextmanager
+    def silence(self) -> Iterator[None]:
+        """Nothing shown inside is recorded: what a call prints could tell the hidden inputs."""
+        self.recorder.silent = True
+        try:
+            yield
+        finally:
+            self.recorder.silent = False
+            self._printed_by_c()
+
+    def _printed_by_c(self) -> None:
+        """Take what was written to file descriptors 1 and 2 past Python, and empty that file."""
+        try:
+            size = os.lseek(1, 0, os.SEEK_END)
+            text = os.pread(1, min(size, self.recorder.left + 1), 0).decode("utf-8", "replace") if size else ""
+            os.ftruncate(1, 0)
+        except OSError:  # the learner's code has closed it
+            return
+        self.recorder.stream("stdout", text)
+
+
+def _no_input(prompt: object = "") -> str:
+    raise StdinNotImplementedError("input() has nobody to ask while the grader runs the notebook; use a variable instead")
+
+
+def _as_text(mime: Any, value: Any) -> str | None:
+    """The data of one mime type as text; JSON types as strict JSON."""
+    if str(mime).endswith(JSON_TYPES):
+        try:
+            return json.dumps(_finite(value), allow_nan=False)
+        except (TypeError, ValueError, RecursionError):
+            return None
+    if isinstance(value, bytes):
+        return base64.b64encode(value).decode("ascii")
+    return value if isinstance(value, str) else None
+
+
+def _finite(value: Any) -> Any:
+    """JSON has no NaN and no infinity: null."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    if isinstance(value, dict):
+        return {str(key): _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return value
+
+
+def _sizes(metadata: Any) -> tuple[tuple[str, int, int], ...]:
+    """Width and height of images, the only metadata that is kept."""
+    found = []
+    for mime, about in metadata.items() if isinstance(metadata, dict) else ():
+        if isinstance(about, dict) and isinstance(about.get("width"), int) and isinstance(about.get("height"), int):
+            found.append((str(mime)[:100], about["width"], about["height"]))
+    return tuple(found[:10])

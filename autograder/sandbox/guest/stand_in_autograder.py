@@ -1,0 +1,17 @@
+"""``autograder`` as a learner's notebook finds it while the grader runs it: ``check`` only, and it does not judge."""
+
+from typing import Any
+
+__all__ = ["check"]
+
+
+def check(function: object = None, *_: Any, **__: Any) -> None:
+    """Say that judging is done elsewhere. In your own JupyterLab the same line shows a verdict at once."""
+    name = getattr(function, "__name__", "this function")
+    print(f"The grader is judging {name}; its verdict stands at the graded cell.")
+
+
+def __getattr__(name: str) -> Any:
+    if name.startswith("__"):
+        raise AttributeError(f"module 'autograder' has no attribute {name!r}")
+    raise ImportError(f"autograder.{name} is not there while the grader runs a notebook: only autograder.check is")

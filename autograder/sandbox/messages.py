@@ -1,0 +1,53 @@
+"""What a learner reads when a limit is reached: what was allowed, what happened, what to look at."""
+
+from __future__ import annotations
+
+import signal
+
+CELL, CALL, FILES, START = "this cell", "this call of your function", "saving the files", "starting"
+SIGNALS: dict[int, str] = {
+    signal.SIGSEGV: "a crash in compiled code (segmentation fault)",
+    signal.SIGABRT: "a crash in compiled code (abort)",
+    signal.SIGBUS: "a crash in compiled code (bus error), perhaps of a full scratch folder",
+    signal.SIGFPE: "a crash in compiled code (arithmetic)",
+    signal.SIGILL: "a crash in compiled code (illegal instruction)",
+    signal.SIGSYS: "a system call that is not allowed",
+    signal.SIGKILL: "the system, perhaps for want of memory",
+}
+
+
+def cpu_time(what: str, seconds: float) -> str:
+    """The CPU time of a cell or call is used up."""
+    return f"{what} was stopped: it may compute for {seconds:g} s and had not finished. Is there a loop that never ends?"
+
+
+def wall_time(what: str, seconds: float) -> str:
+    """Time by the clock is used up."""
+    return f"{what} was stopped after {seconds:g} s by the clock, though it computed little. Is it waiting for something?"
+
+
+def notebook_time(seconds: float) -> str:
+    """The notebook's CPU time is used up."""
+    return f"the notebook has used the {seconds:g} s of computing that all its cells may take together; the rest was not run"
+
+
+def memory(what: str, allowed: int) -> str:
+    """A MemoryError."""
+    return f"{what} asked for more memory than the {allowed / 2**20:g} MiB it may have. Is an array far larger than meant?"
+
+
+def died(what: str, number: int, code: int | None) -> str:
+    """The process is gone."""
+    if number:
+        how = SIGNALS.get(number, f"signal {number}")
+        return f"{what} ended the notebook's process: {how}. What comes after it could not be run"
+    if code is None:
+        return f"{what} ended the notebook's process. What comes after it could not be run"
+    return f"{what} ended the notebook's own process (os._exit or the like, code {code}). What comes after it could not be run"
+
+
+def protocol(error: Exception) -> str:
+    """The child sent what our child never sends."""
+    return (
+        f"the notebook's process sent something that is no answer ({error}); it was stopped. Does the code write to open files?"
+    )

@@ -1,0 +1,140 @@
+"""What a learner's cell shows, checked: known mime types, valid Unicode, strict JSON, bounded, no metadata but image sizes.
+
+Everything here treats its input as forged. Text that a browser would interpret (``ACTIVE``) is passed on as data; whoever
+writes it into a page must sanitise it.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from typing import Any
+
+from autograder.sandbox.wire import WireError
+
+IMAGES = ("image/png", "image/jpeg", "image/gif")
+ACTIVE = ("text/html", "text/markdown", "text/latex")
+JSON_TYPES = ("application/json", "application/vnd.plotly.v1+json")
+MIME_TYPES = ("text/plain", *ACTIVE, *IMAGES, *JSON_TYPES)
+BASE64 = re.compile(r"[A-Za-z0-9+/\s]*={0,2}\s*")
+JSON_DEPTH = 40
+JSON_ITEMS = 300_000
+MAX_PIXELS = 20_000
+SURROGATES = re.compile("[\ud800-\udfff]")
+
+Output = dict[str, Any]
+
+
+def outputs(value: Any) -> list[tuple[Output, str]]:
+    """nbformat outputs from what a child sent, each with its display id (empty for most).
+
+    Raises
+    ------
+    WireError
+        If it does not have the form that our child sends.
+    """
+    if not isinstance(value, tuple):
+        raise WireError("outputs are a tuple")
+    return [_output(item) for item in value]
+
+
+def updates(value: Any) -> list[tuple[Output, str]]:
+    """New contents for displays of earlier cells: (display_data output, display id)."""
+    if not isinstance(value, tuple):
+        raise WireError("updates are a tuple")
+    return [_display("display_data", item) for item in value]
+
+
+def text(value: Any, limit: int = 1 << 30) -> str:
+    """A valid Unicode string of at most ``limit`` characters."""
+    if not isinstance(value, str):
+        raise WireError("a text is missing")
+    return SURROGATES.sub("\ufffd", value[:limit])
+
+
+def _output(item: Any) -> tuple[Output, str]:
+    kind = item[0] if isinstance(item, tuple) and len(item) == 4 or isinstance(item, tuple) and len(item) == 3 else None
+    if kind == "stream" and len(item) == 3 and item[1] in ("stdout", "stderr"):
+        return {"output_type": "stream", "name": item[1], "text": text(item[2])}, ""
+    if kind == "error" and len(item) == 4 and isinstance(item[3], tuple):
+        traceback = [text(line) for line in item[3]]
+        return {"output_type": "error", "ename": text(item[1]), "evalue": text(item[2]), "traceback": traceback}, ""
+    if kind in ("display_data", "execute_result"):
+        return _display(str(kind), item)
+    raise WireError("an output of no known kind")
+
+
+def _display(kind: str, item: Any) -> tuple[Output, str]:
+    if not (isinstance(item, tuple) and len(item) == 4 and isinstance(item[1], tuple) and isinstance(item[2], tuple)):
+        raise WireError("a display of no known form")
+    _, pairs, sizes, display_id = item
+    output = {"output_type": kind, "data": _bundle(pairs), "metadata": _metadata(sizes)}
+    if kind == "execute_result":
+        output["execution_count"] = None  # the session fills it in
+    return output, text(display_id, 200)
+
+
+def _bundle(pairs: tuple[Any, ...]) -> dict[str, Any]:
+    data: dict[str, Any] = {}
+    dropped: list[str] = []
+    for pair in pairs[:50]:
+        if not (isinstance(pair, tuple) and len(pair) == 2 and isinstance(pair[0], str) and isinstance(pair[1], str)):
+            raise WireError("a mime bundle of no known form")
+        mime: str = pair[0]
+        content: Any = pair[1]
+        if mime in JSON_TYPES:
+            content = strict_json(content)
+        elif mime in IMAGES:
+            content = content if BASE64.fullmatch(content) else None
+        elif mime in MIME_TYPES:
+            content = text(content)
+        else:
+            content = None
+        if content is None:
+            dropped.append(mime)
+        else:
+            data[mime] = content
+    if not data:
+        shown = ", ".join(text(mime, 100) for mime in dropped[:3]) or "nothing"
+        data["text/plain"] = f"[this output cannot be shown here: {shown}]"
+    return data
+
+
+def strict_json(content: str) -> Any:
+    """The parsed value, or None if it is not plain, finite, bounded JSON. Objects only: no number, text or list at the top."""
+    if sum(map(content.count, ",[{")) > JSON_ITEMS:  # each item of a list or object follows one of these
+        return None
+    try:
+        value = json.loads(content, parse_constant=_refuse)
+        return _checked(value, JSON_DEPTH) if isinstance(value, dict | list) else None
+    except (ValueError, RecursionError):
+        return None
+
+
+def _refuse(name: str) -> Any:
+    raise ValueError(f"{name} is not JSON")
+
+
+def _checked(value: Any, depth: int) -> Any:
+    if depth < 1:
+        raise ValueError("nested too deeply")
+    if isinstance(value, str):
+        return text(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError("a number too large")
+    if isinstance(value, list):
+        return [_checked(item, depth - 1) for item in value]
+    if isinstance(value, dict):
+        return {text(key): _checked(item, depth - 1) for key, item in value.items()}
+    return value
+
+
+def _metadata(sizes: tuple[Any, ...]) -> dict[str, Any]:
+    found = {}
+    for size in sizes[:10]:
+        if isinstance(size, tuple) and len(size) == 3 and size[0] in IMAGES:
+            width, height = size[1:]
+            if all(type(length) is int and 0 < length <= MAX_PIXELS for length in (width, height)):
+                found[size[0]] = {"width": width, "height": height}
+    return found
