@@ -28,6 +28,8 @@ _NAMES = {
     "Triangle": "surfaces.plane",
     # freeform
     "AlgebraicPatch": "surfaces.algebraic",
+    "BSplinePatch": "surfaces.spline",
+    "NurbsPatch": "surfaces.spline",
     "BezierPatch": "surfaces.bezier",
     "HermitePatch": "surfaces.hermite",
     "PointPatch": "surfaces.point",
@@ -48,9 +50,12 @@ _NAMES = {
     "toricity": "inspection",
     # swept
     "CircularSweep": "surfaces.revolution",
+    "GenericSweep": "surfaces.sweep",
     "LinearSweep": "surfaces.extrusion",
     # what all surfaces share
     "Surface": "surfaces.surface",
+    # measures
+    "join": "surfaces.joining",
     # moving
     "Transform": "transform",
     # errors

@@ -1,0 +1,342 @@
+"""B-spline and NURBS patches of orders k and l.
+
+On a grid of parameters both are matrix products over planes of coordinates (`tensor`), the rational one over four planes and a
+division. At scattered points only the k x l control points near each parameter count; there scipy's compiled tensor-product
+B-spline is used, whose cost does not grow with the net. `de_boor_point` is the slow honest way.
+"""
+
+# ruff: noqa: E741 (k and l are the orders, as the lecture names them)
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from math import comb
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from directrix import checks
+from directrix.basis import cox_de_boor
+from directrix.checks import Array
+from directrix.curves.rational import lift
+from directrix.knots import Knots, KnotVector, knot_vector
+from directrix.surfaces.surface import Orders, Surface
+from directrix.surfaces.tensor import on_grid, planes
+from directrix.transform import Transform
+
+if TYPE_CHECKING:
+    from scipy.interpolate import BSpline, NdBSpline
+
+
+class SplinePatch(Surface):
+    """What both share: a net, two knot vectors, and the homogeneous or plain coefficients they blend."""
+
+    control_net: Array
+    k: int
+    l: int
+    knot_vector_u: KnotVector
+    knot_vector_w: KnotVector
+
+    @property
+    def degrees(self) -> tuple[int, int]:
+        """Degrees in u and in w: k - 1 and l - 1."""
+        return self.k - 1, self.l - 1
+
+    @property
+    def knots_u(self) -> Array:
+        """The knots of u, m + k numbers; m + 2k - 1 when periodic."""
+        return self.knot_vector_u.values
+
+    @property
+    def knots_w(self) -> Array:
+        """The knots of w, n + l numbers; n + 2l - 1 when periodic."""
+        return self.knot_vector_w.values
+
+    def breaks(self) -> tuple[Array, Array]:
+        """The distinct knots, as values of u and of w."""
+        return self.knot_vector_u.breaks(), self.knot_vector_w.breaks()
+
+    def _coefficients(self) -> Array:
+        """What the basis functions blend, shape (m, n, d), d = 3 or 4, before first points are repeated for periodic knots."""
+        raise NotImplementedError
+
+    @cached_property
+    def _blended(self) -> Array:
+        return self.knot_vector_w.extended(self.knot_vector_u.extended(self._coefficients(), axis=0), axis=1)
+
+    @cached_property
+    def _planes(self) -> Array:
+        return planes(self._blended)
+
+    @cached_property
+    def _rows(self) -> tuple[BSpline, BSpline]:
+        return _compiled_row(self.knot_vector_u), _compiled_row(self.knot_vector_w)
+
+    @cached_property
+    def _compiled(self) -> NdBSpline:
+        from scipy.interpolate import NdBSpline
+
+        (first_u, knots_u), (first_w, knots_w) = (_needed(v) for v in (self.knot_vector_u, self.knot_vector_w))
+        m, n = len(knots_u) - self.k, len(knots_w) - self.l
+        net = np.ascontiguousarray(self._blended[first_u : first_u + m, first_w : first_w + n])
+        return NdBSpline((knots_u, knots_w), net, self.degrees)
+
+    def _grid(self, u: Array, w: Array, orders: Orders) -> dict[tuple[int, int], Array]:
+        """Derivatives of the blended coefficients on the grid of u (p,) and w (q,): planes (d, p, q)."""
+        rows = {nu: _row(self._rows[0], self.knot_vector_u, u, nu) for nu in {nu for nu, _ in orders}}
+        columns = {nw: _row(self._rows[1], self.knot_vector_w, w, nw) for nw in {nw for _, nw in orders}}
+        return dict(zip(orders, on_grid(self._planes, rows, columns, orders), strict=True))
+
+    def _scattered(self, u: Array, w: Array, orders: Orders) -> dict[tuple[int, int], Array]:
+        """Derivatives of the blended coefficients at points: (d, ...)."""
+        shape = np.broadcast_shapes(u.shape, w.shape)
+        t = np.empty((*shape, 2))
+        t[..., 0], t[..., 1] = self.knot_vector_u.stretch(u), self.knot_vector_w.stretch(w)
+        found = {}
+        for nu, nw in orders:
+            if nu >= self.k or nw >= self.l:
+                value = np.zeros((*shape, self._blended.shape[2]))
+            else:
+                scale = _speed(self.knot_vector_u) ** nu * _speed(self.knot_vector_w) ** nw
+                value = self._compiled(t, nu=(nu, nw))
+                value = value * scale if scale != 1 else value
+            found[nu, nw] = np.moveaxis(value, -1, 0)
+        return found
+
+    def _derivative(self, u: Array, w: Array, nu: int, nw: int) -> Array:
+        return self._jet(u, w, ((nu, nw),))[0]
+
+
+class BSplinePatch(SplinePatch):
+    """The B-spline patch S(u, w) = Σ_i Σ_j N_i,k(s) N_j,l(t) P_ij of orders k and l (degrees k - 1 and l - 1).
+
+    s and t are u and w stretched linearly onto the knots' own domains, s = (1-u) knots_u[k-1] + u knots_u[-k]; derivatives are
+    with respect to u and w (Piegl & Tiller, The NURBS Book, 2nd ed., section 3.4, with k = p + 1). A control point moves k x l
+    spans only. At a knot repeated k - 1 times there is a crease, k times a gap; values and derivatives there are those of
+    growing u, and at u = 1 those of the last span. With k = m and l = n it is the Bezier patch of the net. Derivatives to any
+    order.
+
+    Parameters
+    ----------
+    net : (m, n, 3), m, n >= 2, first index along u, in any one unit of length
+    k, l : orders = degree + 1 along u and w, 1 <= k <= m, 1 <= l <= n; 4 is cubic
+    knots_u, knots_w : 'open' (default: reaches the corner points), 'uniform', 'periodic' (closes smoothly: the first k - 1 rows
+        are used again), or m + k (n + l) non-decreasing numbers, none of them more than k (l) times
+
+    Raises
+    ------
+    ShapeError
+        If net is not (m, n, 3).
+    OrderError
+        If an order is above the number of points along its direction.
+    KnotError
+        If given knots do not fit.
+
+    Examples
+    --------
+    >>> net = [[(x, y, x * (4 - x)) for y in (0, 2)] for x in (0, 1, 2, 4)]
+    >>> roof = BSplinePatch(net, 3, 2)
+    >>> roof(0.5, 0.25)
+    array([1.5, 0.5, 3.5])
+    >>> roof(1, 1)
+    array([4., 2., 0.])
+    >>> roof.knots_u
+    array([0., 0., 0., 1., 2., 2., 2.])
+    """
+
+    def __init__(self, net: ArrayLike, k: int, l: int, knots_u: Knots = "open", knots_w: Knots = "open") -> None:
+        self._hold(**_checked(checks.net("net", net), k, l, knots_u, knots_w))
+
+    def _coefficients(self) -> Array:
+        return self.control_net
+
+    def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        found = self._scattered(u, w, orders)
+        return [np.moveaxis(found[order], 0, -1) for order in orders]
+
+    def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        found = self._grid(u, w, orders)
+        return [np.moveaxis(found[order], 0, -1) for order in orders]
+
+    def with_net(self, net: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None) -> BSplinePatch:
+        """The same orders with another net, on the same knots or on others."""
+        return _made(type(self), self, control_net=net, knot_vector_u=knots_u, knot_vector_w=knots_w)
+
+    def moved(self, transform: Transform) -> BSplinePatch:
+        """The B-spline patch of the moved net."""
+        return self.with_net(transform.points(self.control_net))
+
+    def swap(self) -> BSplinePatch:
+        """The same surface with u and w exchanged: the net transposed, orders and knots exchanged."""
+        return _swapped(self, control_net=self.control_net.swapaxes(0, 1))
+
+
+class NurbsPatch(SplinePatch):
+    """The rational B-spline patch S = Σ_i Σ_j N_i,k(s) N_j,l(t) h_ij P_ij / Σ_i Σ_j N_i,k(s) N_j,l(t) h_ij.
+
+    The points are Cartesian, *not* multiplied by their weights h (several libraries expect them multiplied). Equal weights give
+    the `BSplinePatch`; multiplying all by one number changes nothing; a larger h_ij pulls the surface to P_ij (Piegl & Tiller,
+    The NURBS Book, 2nd ed., sections 4.4 and 4.5, who write w for the weights). Parameters, knots and sides as for
+    `BSplinePatch`. Derivatives to any order, by their equation 4.20.
+
+    Parameters
+    ----------
+    net : (m, n, 3), Cartesian, m, n >= 2, first index along u, in any one unit of length
+    weights : (m, n), all > 0
+    k, l : orders = degree + 1 along u and w, 1 <= k <= m, 1 <= l <= n
+    knots_u, knots_w : as for `BSplinePatch`
+
+    Raises
+    ------
+    ShapeError
+        If net is not (m, n, 3) or weights not (m, n).
+    WeightError
+        If a weight is not above 0.
+    OrderError, KnotError
+        If orders or knots do not fit.
+
+    Examples
+    --------
+    >>> net = [[(x, y, z) for y in (0, 2)] for x, z in ((0, 0), (1, 2), (2, 0))]
+    >>> weights = [(1, 1), (3, 3), (1, 1)]
+    >>> NurbsPatch(net, weights, 3, 2)(0.5, 0.5)
+    array([1. , 1. , 1.5])
+    """
+
+    weights: Array
+
+    def __init__(
+        self,
+        net: ArrayLike,
+        weights: ArrayLike,
+        k: int,
+        l: int,
+        knots_u: Knots = "open",
+        knots_w: Knots = "open",
+    ) -> None:
+        net = checks.net("net", net)
+        weights = checks.weights("weights", weights, net.shape[:2])
+        self._hold(**_checked(net, k, l, knots_u, knots_w), weights=weights)
+
+    def _coefficients(self) -> Array:
+        return lift(self.control_net, self.weights)
+
+    def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        return _cartesian(self._scattered(u, w, _lower(orders)), orders)
+
+    def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        return _cartesian(self._grid(u, w, _lower(orders)), orders)
+
+    def with_net(
+        self, net: Array, weights: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None
+    ) -> NurbsPatch:
+        """The same orders with another net and weights, on the same knots or on others."""
+        return _made(type(self), self, control_net=net, weights=weights, knot_vector_u=knots_u, knot_vector_w=knots_w)
+
+    def moved(self, transform: Transform) -> NurbsPatch:
+        """The patch of the moved net with the same weights, which is the moved patch for every affine map."""
+        return self.with_net(transform.points(self.control_net), self.weights)
+
+    def swap(self) -> NurbsPatch:
+        """The same surface with u and w exchanged."""
+        return _swapped(self, control_net=self.control_net.swapaxes(0, 1), weights=self.weights.T)
+
+
+def de_boor_point(patch: BSplinePatch | NurbsPatch, u: float, w: float) -> Array:
+    """One point of a patch, summed over the whole net with the Cox-de Boor recursion: the slow honest way.
+
+    Examples
+    --------
+    >>> net = [[(x, y, x * y) for y in (0, 2)] for x in (0, 1, 2)]
+    >>> de_boor_point(BSplinePatch(net, 3, 2), 0.5, 0.5).tolist()
+    [1.0, 1.0, 1.0]
+    """
+    N_u = cox_de_boor(patch.knots_u, patch.k, float(patch.knot_vector_u.stretch(np.float64(u))))
+    N_w = cox_de_boor(patch.knots_w, patch.l, float(patch.knot_vector_w.stretch(np.float64(w))))
+    weights = patch.weights if isinstance(patch, NurbsPatch) else np.ones(patch.control_net.shape[:2])
+    above, below = np.zeros(3), 0.0
+    for i, a in enumerate(N_u):
+        for j, b in enumerate(N_w):
+            here = i % len(weights), j % len(weights[0])  # periodic: the first rows again
+            above = above + a * b * weights[here] * patch.control_net[here]
+            below = below + a * b * weights[here]
+    return np.asarray(above / below) if isinstance(patch, NurbsPatch) else above
+
+
+def _checked(net: Array, k: int, l: int, knots_u: Knots, knots_w: Knots) -> dict[str, object]:
+    m, n = net.shape[:2]
+    k, l = checks.order("k", k, m), checks.order("l", l, n)
+    return {
+        "control_net": net,
+        "k": k,
+        "l": l,
+        "knot_vector_u": knot_vector("knots_u", knots_u, m, k),
+        "knot_vector_w": knot_vector("knots_w", knots_w, n, l),
+    }
+
+
+def _made(kind: type, like: Surface, **changed: object) -> Surface:
+    """A form of the same kind with some of its attributes changed; None leaves one as it is."""
+    result = kind.__new__(kind)
+    given = {name: value for name, value in changed.items() if value is not None}
+    result._hold(**{name: given.get(name, getattr(like, name)) for name in like._names})
+    return result
+
+
+def _swapped(like: SplinePatch, **changed: Array) -> Surface:
+    return _made(
+        type(like), like, k=like.l, l=like.k, knot_vector_u=like.knot_vector_w, knot_vector_w=like.knot_vector_u, **changed
+    )
+
+
+def _speed(knots: KnotVector) -> float:
+    """ds/du: how much faster the knot parameter runs than u."""
+    return knots.end - knots.start
+
+
+def _needed(knots: KnotVector) -> tuple[int, Array]:
+    """First function and knots of those functions whose support reaches into the domain; scipy wants no others."""
+    t, k = knots.values, knots.order
+    inside = [i for i in range(knots.count) if t[i + k] > knots.start and t[i] < knots.end]
+    return inside[0], t[inside[0] : inside[-1] + k + 1]
+
+
+def _compiled_row(knots: KnotVector) -> BSpline:
+    """All basis functions of a knot vector at once, as scipy's compiled B-spline with the identity for coefficients."""
+    from scipy.interpolate import BSpline
+
+    first, t = _needed(knots)
+    count = len(t) - knots.order
+    return BSpline.construct_fast(t, np.eye(count, knots.count, first), knots.degree, extrapolate=True)
+
+
+def _row(compiled: BSpline, knots: KnotVector, u: Array, order: int) -> Array:
+    """Values, or derivatives by u, of all basis functions at u (p,): shape (p, m)."""
+    if order >= knots.order:
+        return np.zeros((len(u), knots.count))
+    value = compiled(knots.stretch(u), order)
+    return np.asarray(value * _speed(knots) ** order) if order else np.asarray(value)
+
+
+def _lower(orders: Orders) -> list[tuple[int, int]]:
+    """All orders that the quotient rule needs."""
+    return sorted({(i, j) for nu, nw in orders for i in range(nu + 1) for j in range(nw + 1)})
+
+
+def _cartesian(parts: dict[tuple[int, int], Array], orders: Orders) -> list[Array]:
+    """Derivatives of A / h from those of (A, h), component planes (4, ...), as arrays (..., 3).
+
+    S^(k,l) = (A^(k,l) - Σ C(k,i) C(l,j) h^(i,j) S^(k-i,l-j)) / h, the sum over all (i, j) != (0, 0)
+    (Piegl & Tiller, The NURBS Book, 2nd ed., equation 4.20).
+    """
+    inverse, done = 1.0 / parts[0, 0][3], {}
+    scratch = np.empty(parts[0, 0][:3].shape) if len(parts) > 1 else inverse
+    for (k, l), part in sorted(parts.items()):
+        value = part[:3]  # worked on in place: fresh memory costs more here than arithmetic
+        for i in range(k + 1):
+            for j in range(l + 1):
+                if (i, j) != (0, 0):
+                    value -= np.multiply(done[k - i, l - j], comb(k, i) * comb(l, j) * parts[i, j][3], out=scratch)
+        done[k, l] = np.multiply(value, inverse, out=value)
+    return [np.moveaxis(done[order], 0, -1) for order in orders]
