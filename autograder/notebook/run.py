@@ -97,6 +97,7 @@ def run(
     with contextlib.ExitStack() as stack:
         runner = _Runner(open_session, stack, time.monotonic() + seconds)
         ran = Ran([])
+        learners: list[dict[str, Any]] = []
         count = 0
         for cell, mine, known in zip(rebuilt.cells, rebuilt.masters, rebuilt.known, strict=True):
             if cell["cell_type"] != "code" or (mine is None and SKIP_TAG in known.tags):
@@ -109,12 +110,15 @@ def run(
                 outputs = judged_outputs(result, mine, count)
             else:
                 result, outputs = runner.run(cell["source"])
+                learners.append(cell)
             cell["outputs"], cell["execution_count"] = outputs, count
-            for output in outputs:
-                if output["output_type"] == "execute_result":
-                    output["execution_count"] = count
             ran.cells.append(result)
         ran.files, ran.faults, ran.restarts = runner.files(), runner.faults, runner.restarts
+    for cell in learners:
+        cell["outputs"] = safe.outputs(cell["outputs"])
+        for output in cell["outputs"]:
+            if output["output_type"] == "execute_result":
+                output["execution_count"] = cell["execution_count"]
     return ran
 
 
@@ -221,7 +225,7 @@ class _Runner:
             return CellRun("not run", note=note), [_display({"text/plain": "The sandbox was not available: not run."})]
         if result.status in ("ok", "error") and session.alive:
             self.good.append(source)
-        outputs = safe.outputs(result.outputs)
+        outputs = result.outputs  # cleaned when all cells have run: a later cell may update a display in them
         status = result.status
         if status not in ("ok", "error") or (not session.alive and status == "ok"):
             outputs.append(_ended(status if status in ENDED else "died", result.note))

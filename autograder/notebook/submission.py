@@ -32,7 +32,7 @@ class Bounds:
     notebook: int = 32_000_000
     file: int = 32_000_000
     total: int = 64_000_000
-    entries: int = 2_000
+    entries: int = 900
 
 
 @dataclass

@@ -1,0 +1,34 @@
+"""The one line in ``nbgrader_config.py``: nbgrader's own commands grade through the sandbox and the judge.
+
+    from autograder import bridge
+    bridge.configure(c)
+
+``nbgrader autograde``, formgrader, ``nbgrader generate_feedback``, late policies and the exchange keep working. This module
+names classes only; nbgrader imports them when it needs them, and ``directrix grade`` never does.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+SANITIZE = (
+    "autograder.bridge.preprocessors.Rebuild",  # for ClearOutput, DeduplicateIds, OverwriteKernelspec and OverwriteCells
+    "nbgrader.preprocessors.CheckCellMetadata",
+)
+AUTOGRADE = (
+    "autograder.bridge.preprocessors.Execute",
+    "nbgrader.preprocessors.IgnorePattern",
+    "nbconvert.preprocessors.ClearMetadataPreprocessor",
+    "autograder.bridge.preprocessors.LimitOutput",
+    "autograder.bridge.preprocessors.SaveAutoGrades",
+    "nbgrader.preprocessors.AssignLatePenalties",
+    "nbgrader.preprocessors.CheckCellMetadata",
+)
+TEMPLATES = Path(__file__).with_name("templates")
+
+
+def configure(c: Any) -> None:
+    """Set what an nbgrader course needs to be graded by Directrix. Settings of the course that do not meet ours stay."""
+    c.Autograde.sanitize_preprocessors = list(SANITIZE)
+    c.Autograde.autograde_preprocessors = list(AUTOGRADE)
