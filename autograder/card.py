@@ -14,7 +14,9 @@ import html as _html
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import groupby
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -81,11 +83,18 @@ class Card:
 
 def of(verdict: Verdict, notes: Iterable[tuple[str, str]] = ()) -> Card:
     """The card of a verdict, with notes (heading, text) such as what the function printed."""
-    parts = [(PARTS.get(name, name.capitalize()), text) for name, text in verdict.parts if text]
+    named = [(PARTS.get(name, name.capitalize()), text) for name, text in verdict.parts if text]
+    # Sentences that follow each other under one heading are one paragraph.
+    parts = [(name, " ".join(text for _, text in said)) for name, said in groupby(named, key=itemgetter(0))]
     if not parts and verdict.message:
         parts = [("", verdict.message)]
     cases = verdict.cases if verdict.outcome != "not run" else ()
     return Card(verdict.outcome, verdict.title or verdict.exercise, tuple(parts), cases, tuple(notes))
+
+
+def with_parts(shown: Card, parts: Iterable[tuple[str, str]]) -> Card:
+    """The same card with more to say at its end."""
+    return replace(shown, parts=(*shown.parts, *parts))
 
 
 def html(verdict: Verdict | Card) -> str:
@@ -116,7 +125,9 @@ def text(verdict: Verdict | Card) -> str:
     for heading, said in card.parts:
         shown = _clean(said, LONGEST).replace("`", "")
         lines.append(f"{heading}: {shown}" if heading else shown)
-    if card.cases:
+    if alike := _all_alike(card.cases):
+        lines.append(f"Data sets: {alike}")
+    elif card.cases:
         lines.append("Data sets:")
         lines += [
             f"  {sign} {': '.join(part for part in (name, said) if part)}" for sign, name, said in _rows_as_text(card.cases)
@@ -230,6 +241,8 @@ def _note(heading: str, text: str) -> str:
 def _table(cases: Sequence[Case]) -> str:
     if not cases:
         return ""
+    if said := _all_alike(cases):
+        return f'<div style="margin: 3px 0"><b>Data sets:</b> {_escape(said)}</div>'
     columns = _columns(cases)
     head = "".join(_cell(name, "th") for name in columns)
     rows = [f"<tr>{head}</tr>"] if any(columns) else []
@@ -240,6 +253,19 @@ def _table(cases: Sequence[Case]) -> str:
         '<div style="overflow-x: auto; margin: 8px 0 0 0"><table style="border-collapse: collapse; font-size: 13px; '
         f'margin: 0">{"".join(rows)}</table></div>'
     )
+
+
+def _all_alike(cases: Sequence[Case]) -> str:
+    """One line where no data set has anything of its own to tell: ``✓ right on all 2: lecture, any_size``."""
+    results = {_result_of(case) for case in cases}
+    if len(results) != 1 or any(_worst_of(case) for case in cases):
+        return ""
+    names = [_data_of(case) for case in cases]
+    hidden = sum(case.hidden for case in cases)
+    shown = [name for name, case in zip(names, cases, strict=True) if not case.hidden]
+    shown += [f"{hidden} hidden"] if hidden else []
+    many = f"on all {len(cases)}: " if len(cases) > 1 else "on "
+    return f"{results.pop()} {many}{', '.join(shown)}"
 
 
 def _columns(cases: Sequence[Case]) -> list[str]:
@@ -260,8 +286,7 @@ def _cell(text: str, tag: str = "td") -> str:
 
 
 def _data_of(case: Case) -> str:
-    name = case.data.replace("_", " ")
-    return f"{name} (hidden)" if case.hidden else f"{name} (blind)" if case.blind else name
+    return f"{case.data} (hidden)" if case.hidden else f"{case.data} (blind)" if case.blind else case.data
 
 
 def _result_of(case: Case) -> str:

@@ -1,0 +1,91 @@
+"""Whether a function can be called with the arguments of its exercise, by position, and how its own arguments differ."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from autograder.card import Card
+from autograder.exercise import Exercise
+
+
+@dataclass(frozen=True)
+class Trouble:
+    """What differs in the list of arguments. ``callable`` False: the call itself cannot succeed."""
+
+    said: str
+    yours: str
+    callable: bool
+
+    def card(self, exercise: Exercise) -> Card:
+        """The card where there is nothing to judge."""
+        return Card(
+            "failed",
+            exercise.title,
+            (
+                ("What does not", f"Your function does not take the arguments of the task. {self.said}"),
+                ("Wanted", f"`def {exercise.signature}:`"),
+                ("Yours", f"`def {self.yours}:`"),
+                ("Look at", "The names are yours to choose, but their number and order are fixed: u and w come first."),
+            ),
+        )
+
+
+def trouble_with(exercise: Exercise, f: Callable[..., Any]) -> Trouble | None:
+    """What is wrong with the arguments of f, or None.
+
+    Missing and extra arguments make the call fail. Exchanged and renamed ones do not, since the call is by position: they are
+    told where the answer is not right.
+    """
+    try:
+        given = list(inspect.signature(f).parameters.values())
+    except (TypeError, ValueError):
+        return None
+    positional = [one for one in given if one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)]
+    forced = [one.name for one in given if one.kind is one.KEYWORD_ONLY and one.default is one.empty]
+    names = [one.name for one in positional]
+    needed = [one.name for one in positional if one.default is one.empty]
+    wanted = list(exercise.arguments)
+    yours = f"{exercise.id}({', '.join(map(_written, given))})"
+    takes_any = any(one.kind is one.VAR_POSITIONAL for one in given)
+    if forced:
+        return Trouble(f"{_list(forced)} can only be given by name (they stand behind a *).", yours, callable=False)
+    if len(needed) > len(wanted) or (len(names) < len(wanted) and not takes_any):
+        return Trouble(_difference(wanted, names, needed), yours, callable=False)
+    if takes_any or names[: len(wanted)] == wanted:
+        return None
+    if sorted(names[: len(wanted)]) == sorted(wanted):
+        orders = f"the task has ({', '.join(wanted)}), yours has ({', '.join(names)})"
+        return Trouble(f"Their order differs: {orders}. The call is by position.", yours, callable=True)
+    pairs = [(name, want) for want, name in zip(wanted, names, strict=False) if want != name]
+    renamed = "; ".join(f"`{name}` where the task says `{want}`" for name, want in pairs)
+    return Trouble(f"Yours has other names: {renamed}. That is allowed, if they mean the same.", yours, callable=True)
+
+
+def _difference(wanted: list[str], names: list[str], needed: list[str]) -> str:
+    missing = [name for name in wanted if name not in names]
+    extra = [name for name in needed if name not in wanted]
+    said = []
+    for name in list(missing):
+        near = difflib.get_close_matches(name.lower(), [one.lower() for one in extra], n=1, cutoff=0.5)
+        like = next((one for one in extra if near and one.lower() == near[0]), None)
+        if like is not None:
+            missing.remove(name)
+            extra.remove(like)
+            said.append(f"`{name}` is called `{like}`.")
+    if missing:
+        said.insert(0, f"Missing: {_list(missing)}.")
+    if extra:
+        said.insert(len(said) and 1, f"Too many: {_list(extra)}.")
+    return " ".join(said) or f"It takes {len(names)} arguments, wanted are {len(wanted)}."
+
+
+def _list(names: list[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
+
+
+def _written(one: inspect.Parameter) -> str:
+    return str(one.replace(annotation=inspect.Parameter.empty))
