@@ -11,6 +11,7 @@ from directrix.checks import Array
 from directrix.curves.line import Line
 from directrix.surfaces.extrusion import LinearSweep
 from directrix.surfaces.surface import Surface
+from directrix.surfaces.sweep import GenericSweep
 from directrix.transform import Transform
 
 
@@ -87,6 +88,10 @@ class Triangle(_ThreePoints):
     >>> Triangle((0, 0, 0), (4, 0, 0), (0, 2, 1))([0.5, 0.25], [0.5, 1.0]).tolist()
     [[1.0, 1.0, 0.5], [0.0, 2.0, 1.0]]
     """
+
+    def swept(self) -> GenericSweep:
+        """The same map as a tapered sweep: the line p1 p2 carried along p1 p3, shrinking evenly to a point."""
+        return GenericSweep(Line(self.p1, self.p2), Line(self.p1, self.p3), taper=0.0)
 
     def _derivative(self, u: Array, w: Array, nu: int, nw: int) -> Array:
         edge, rest = linear(u[..., None], self.p1, self.p2, nu), linear(w[..., None], 1.0, 0.0, nw)

@@ -16,9 +16,10 @@ from numpy.typing import ArrayLike
 from directrix import checks, differential
 from directrix.checks import Array
 from directrix.differential import Curvature, FirstForm, SecondForm
-from directrix.errors import OrderError
+from directrix.errors import OrderError, ShapeError
 from directrix.frozen import Frozen
 from directrix.quadrature import integrate_square
+from directrix.surfaces.nearest import Nearest, nearest
 
 if TYPE_CHECKING:
     from directrix.transform import Transform
@@ -155,6 +156,27 @@ class Surface(Frozen):
             return differential.norm(differential.cross(tangent_u, tangent_w))
 
         return integrate_square(element, *self.breaks())
+
+    def nearest(self, points: ArrayLike) -> Nearest:
+        """The nearest point of the surface to each given point: u, w and the distance, each of shape points.shape[:-1].
+
+        A look at a grid of samples first, then a damped Newton iteration from the best of them, so that the answer is the
+        global one as long as no dip is narrower than the samples (33 each way at least, six between breaks).
+
+        Parameters
+        ----------
+        points : (..., 3)
+
+        Raises
+        ------
+        ShapeError
+            If the last axis of points is not of length 3.
+        """
+        given = checks.array("points", points)
+        if given.ndim == 0 or given.shape[-1] != 3:
+            raise ShapeError(f"points must have shape (..., 3); got {given.shape}.", got=given.shape)
+        found = nearest(self, given.reshape(-1, 3))
+        return Nearest(*(part.reshape(given.shape[:-1]) for part in found))
 
     # Moving and cutting
 
