@@ -18,9 +18,8 @@ class Lab:
     def __enter__(self) -> "Lab":
         self.address = self.server.__enter__()
         self.page.goto(f"{self.address}/lab")
-        self.page.wait_for_function(
-            "() => window.jupyterapp && window.jupyterapp.shell.currentWidget !== undefined", timeout=90_000
-        )
+        self.page.wait_for_function("() => window.jupyterapp?.commands.hasCommand('docmanager:open')", timeout=90_000)
+        self.page.evaluate("() => window.jupyterapp.restored.then(() => null)")
         return self
 
     def __exit__(self, *details) -> None:
