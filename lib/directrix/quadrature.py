@@ -32,7 +32,7 @@ def integrate_square(
 ) -> float:
     """The integral of f over the unit square; ``across=False`` leaves w undivided.
 
-    Each cell is compared with its halves (Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed., section 6.1);
+    Each cell is compared with its halves (Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed., chapter 6);
     cells that agree are done, the others are divided. After 20 halvings what is left is taken as it is: a kink along a
     curve then costs less than 1e-9.
     """

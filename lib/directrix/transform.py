@@ -109,7 +109,7 @@ class Transform(Frozen):
         """The turn about the line through ``point`` along ``direction``, by the right-hand rule.
 
         p -> point + v cos t + (k x v) sin t + (k . v) k (1 - cos t), v = p - point, k the unit direction
-        (Rodrigues; Mortenson, Geometric Modeling, 3rd ed., chapter 9).
+        (Rodrigues; Rogers & Adams, chapter 3, rotation about an arbitrary axis).
 
         Parameters
         ----------

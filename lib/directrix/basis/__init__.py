@@ -1,17 +1,22 @@
 """Basis functions of one parameter: polynomials and B-splines, fast and slow."""
 
 from directrix.basis.polynomial import HERMITE, bernstein, de_casteljau, hermite, lagrange, linear, monomials
+from directrix.basis.refinement import blossom, clamped, on_knots, raised
 from directrix.basis.spline import cox_de_boor, spline_local, spline_row, spline_span
 
 __all__ = [
     "HERMITE",
     "bernstein",
+    "blossom",
+    "clamped",
     "cox_de_boor",
     "de_casteljau",
     "hermite",
     "lagrange",
     "linear",
     "monomials",
+    "on_knots",
+    "raised",
     "spline_local",
     "spline_row",
     "spline_span",

@@ -12,7 +12,7 @@ import numpy as np
 from directrix.checks import Array
 
 HERMITE = np.array([[2.0, -2, 1, 1], [-3, 3, -2, -1], [0, 0, 1, 0], [1, 0, 0, 0]])
-"""M_F: the Hermite blending functions are [t^3 t^2 t 1] M_F (Mortenson, Geometric Modeling, 3rd ed., section 3.4)."""
+"""M_F: the Hermite blending functions are [t^3 t^2 t 1] M_F (Mortenson, Geometric Modeling, 3rd ed., "Hermite Curves")."""
 
 
 def linear(t: Array, start: Array | float, end: Array | float, derivative: int = 0) -> Array:
@@ -70,7 +70,7 @@ def hermite(t: Array, derivative: int = 0) -> Array:
     """The Hermite blending functions F1..F4, for p(0), p(1), p'(0), p'(1), or their derivatives. Shape t.shape + (4,).
 
     F1 = 2t^3 - 3t^2 + 1, F2 = -2t^3 + 3t^2, F3 = t^3 - 2t^2 + t, F4 = t^3 - t^2
-    (Mortenson, Geometric Modeling, 3rd ed., section 3.4).
+    (Mortenson, Geometric Modeling, 3rd ed., "Hermite Basis Functions").
 
     Examples
     --------

@@ -20,7 +20,7 @@ class Arc(Curve):
     The angle a is measured in the plane across ``normal`` from the projection of the x axis (where that vanishes, from the y
     axis), positive by the right-hand rule about ``normal``: cos goes with that first axis e1, sin with normal x e1. The
     rational arcs of NURBS have the same points at another speed; conversion makes them. Derivatives to any order; multiples
-    of a quarter turn are exact. (Mortenson, Geometric Modeling, 3rd ed., section 2.4.)
+    of a quarter turn are exact. (Piegl & Tiller, The NURBS Book, 2nd ed., section 7.2.)
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class Circle(Arc):
 
     Starts and ends at center + radius e1, with e1 the projection of the x axis onto the plane (where that vanishes, of the y
     axis), and goes round by the right-hand rule about ``normal``. The same point, bit for bit, at u = 0 and u = 1.
-    (Mortenson, Geometric Modeling, 3rd ed., section 2.4.)
+    (Piegl & Tiller, The NURBS Book, 2nd ed., section 7.2.)
 
     Parameters
     ----------

@@ -23,8 +23,7 @@ class LinearSweep(Surface):
 
     u runs along the generatrix C, w along the straight directrix. In CAD: extrude. A closed curve stays closed in u; a line
     swept along itself collapses to a line (area 0, normal (0, 0, 0)). Derivatives to any order in w, in u as far as the
-    curve's own. (Mortenson, Geometric Modeling, 3rd ed., section 9.2; Rogers & Adams, Mathematical Elements for Computer
-    Graphics, 2nd ed., section 6-4.)
+    curve's own. (Piegl & Tiller, The NURBS Book, 2nd ed., section 8.3, the general cylinder.)
 
     Parameters
     ----------

@@ -9,7 +9,8 @@ from directrix.basis import linear
 from directrix.checks import Array
 from directrix.curves.arc import Arc, Circle
 from directrix.curves.line import Line
-from directrix.errors import NumberError
+from directrix.errors import ConversionError, NumberError
+from directrix.quadric import Quadric
 from directrix.surfaces.revolution import CircularSweep
 from directrix.surfaces.surface import Surface, components
 from directrix.transform import turn
@@ -22,7 +23,7 @@ class Cylinder(Surface):
 
     u goes once round from +x towards +y, w from z = 0 to z = h. A radius, a height and an axis do not say where on the axis
     the cylinder stands: here it stands on z = 0, upwards for h > 0. Normals point outward for h > 0, inward for h < 0;
-    k1 = 0 and k2 = -1/r with the outward normal. (Mortenson, Geometric Modeling, 3rd ed., section 7.3.)
+    k1 = 0 and k2 = -1/r with the outward normal. (Piegl & Tiller, The NURBS Book, 2nd ed., section 8.3.)
 
     Parameters
     ----------
@@ -55,14 +56,18 @@ class Cylinder(Surface):
         """The same surface as a line turned about z: u and w exchange their roles, cylinder(u, w) = swept(w, u)."""
         return CircularSweep(Line((self.radius, 0, 0), (self.radius, 0, self.height)))
 
+    def implicit(self) -> Quadric:
+        """x^2 + y^2 - r^2 = 0, without ends."""
+        return Quadric(1, 1, 0, 0, 0, 0, 0, 0, 0, -(self.radius**2))
+
 
 class Cone(Surface):
     """A cone or frustum about z: S(u, w) = (rho cos 2 pi u, rho sin 2 pi u, h w), rho = r1 + (r2 - r1) w.
 
     A circle of radius r1 in z = 0, of radius r2 in z = h, joined by straight lines; u goes once round from +x towards +y.
     h is measured along the axis, not along the slant. A radius of 0 makes an apex: S_u = 0 all along that edge; the normal
-    there is the limit along each ruling, and the curvature NaN. Normals point outward. (Mortenson, Geometric Modeling, 3rd
-    ed., section 7.3.)
+    there is the limit along each ruling, and the curvature NaN. Normals point outward. (Piegl & Tiller, The NURBS
+    Book, 2nd ed., section 8.4.)
 
     Parameters
     ----------
@@ -96,6 +101,11 @@ class Cone(Surface):
     def swept(self) -> CircularSweep:
         """The same surface as a line turned about z: u and w exchange their roles, cone(u, w) = swept(w, u)."""
         return CircularSweep(Line((self.r1, 0, 0), (self.r2, 0, self.height)))
+
+    def implicit(self) -> Quadric:
+        """x^2 + y^2 - (r1 + (r2 - r1) z / h)^2 = 0, without ends and with the other half of the cone."""
+        slope = (self.r2 - self.r1) / self.height
+        return Quadric(1, 1, -(slope**2), 0, 0, 0, 0, 0, -2 * self.r1 * slope, -(self.r1**2))
 
 
 class Sphere(Surface):
@@ -135,6 +145,10 @@ class Sphere(Surface):
     def swept(self) -> CircularSweep:
         """The same map as a sweep: a semicircle in the xz-plane turned about z."""
         return CircularSweep(Arc((0, 0, 0), self.radius, -pi / 2, pi / 2, MINUS_Y))
+
+    def implicit(self) -> Quadric:
+        """x^2 + y^2 + z^2 - r^2 = 0."""
+        return Quadric(1, 1, 1, 0, 0, 0, 0, 0, 0, -(self.radius**2))
 
 
 class Torus(Surface):
@@ -183,6 +197,21 @@ class Torus(Surface):
     def swept(self) -> CircularSweep:
         """The same map as a sweep: a circle in the xz-plane turned about z."""
         return CircularSweep(Circle((self.R, 0, 0), self.r, MINUS_Y))
+
+    def implicit(self) -> Quadric:
+        """The sphere x^2 + y^2 + z^2 - r^2 = 0 where R = 0; any other torus is of degree four.
+
+        Raises
+        ------
+        ConversionError
+            Unless R = 0.
+        """
+        if self.R:
+            raise ConversionError(
+                f"a torus with R = {self.R:g} is a surface of degree four, (x^2 + y^2 + z^2 + R^2 - r^2)^2 = 4 R^2 (x^2 + y^2), "
+                "and no quadric; only R = 0, the sphere, is one."
+            )
+        return Sphere(self.r).implicit()
 
 
 def _turned(rho: Array, height: Array, t: Array, n: int) -> Array:

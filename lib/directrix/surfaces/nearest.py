@@ -104,14 +104,17 @@ def _step(
     """
     suu, suw, sww = seconds
     gu, gw = dot(away, su), dot(away, sw)
-    a, b, c = dot(su, su), dot(su, sw), dot(sw, sw)
-    full = a + dot(away, suu), b + dot(away, suw), c + dot(away, sww)
-    convex = (full[0] > 0) & (full[0] * full[2] > full[1] ** 2)
-    a, b, c = (np.where(convex, whole, part) for whole, part in zip(full, (a, b, c), strict=True))
     held_u = ((u == 0) & (gu > 0)) | ((u == 1) & (gu < 0))
     held_w = ((w == 0) & (gw > 0)) | ((w == 1) & (gw < 0))
+    a, b, c = dot(su, su), dot(su, sw), dot(sw, sw)
+    b = np.where(held_u | held_w, 0.0, b)
+    full_a, full_c = a + dot(away, suu), c + dot(away, sww)
+    full_b = np.where(held_u | held_w, 0.0, b + dot(away, suw))
+    convex = (held_u | (full_a > 0)) & (held_w | (full_c > 0)) & (held_u | held_w | (full_a * full_c > full_b**2))
+    a, b, c = (np.where(convex, whole, part) for whole, part in ((full_a, a), (full_b, b), (full_c, c)))
+    a, c = np.where(held_u, 1.0, a), np.where(held_w, 1.0, c)
     lift = damping * (a + c) + np.finfo(np.float64).tiny
-    a, c, b = a + lift, c + lift, np.where(held_u | held_w, 0.0, b)
+    a, c = a + lift, c + lift
     gu, gw = np.where(held_u, 0.0, gu), np.where(held_w, 0.0, gw)
     determinant = np.maximum(a * c - b * b, np.finfo(np.float64).tiny)
     return (b * gw - c * gu) / determinant, (b * gu - a * gw) / determinant

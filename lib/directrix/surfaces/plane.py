@@ -9,6 +9,7 @@ from directrix import checks
 from directrix.basis import linear
 from directrix.checks import Array
 from directrix.curves.line import Line
+from directrix.quadric import Quadric
 from directrix.surfaces.extrusion import LinearSweep
 from directrix.surfaces.surface import Surface
 from directrix.surfaces.sweep import GenericSweep
@@ -28,6 +29,11 @@ class _ThreePoints(Surface):
         checks.spanning(message, p2 - p1, p3 - p1)
         self._hold(p1=p1, p2=p2, p3=p3)
 
+    def implicit(self) -> Quadric:
+        """The plane n . (x - p1) = 0 with the unit normal n, without edges."""
+        normal = checks.direction("normal", np.cross(self.p2 - self.p1, self.p3 - self.p1))
+        return Quadric(0, 0, 0, 0, 0, 0, *normal, -(normal @ self.p1))
+
     def moved(self, transform: Transform) -> Surface:
         """The same form through the moved points."""
         return type(self)(*(transform.points(point) for point in (self.p1, self.p2, self.p3)))
@@ -37,7 +43,8 @@ class Plane(_ThreePoints):
     """The plane patch through three points: S(u, w) = p1 + u (p2 - p1) + w (p3 - p1).
 
     A parallelogram with S(0, 0) = p1, S(1, 0) = p2, S(0, 1) = p3 and S(1, 1) = p2 + p3 - p1. The half u + w <= 1 is the
-    triangle p1 p2 p3. Normal (p2 - p1) x (p3 - p1), made unit. (Mortenson, Geometric Modeling, 3rd ed., section 7.2.)
+    triangle p1 p2 p3. Normal (p2 - p1) x (p3 - p1), made unit. (Piegl & Tiller, The NURBS Book,
+    2nd ed., section 8.2, with vanishing twist.)
 
     Parameters
     ----------
@@ -71,8 +78,8 @@ class Triangle(_ThreePoints):
     """The triangle p1 p2 p3 as the image of the whole square: S(u, w) = (1 - u)(1 - w) p1 + u (1 - w) p2 + w p3.
 
     The edge w = 0 runs from p1 to p2, the edge w = 1 collapses to p3: S_u = 0 there, and the normal is still that of the
-    plane. The triangle as half of a parallelogram is ``Plane`` with u + w <= 1. (Rogers & Adams, Mathematical Elements for
-    Computer Graphics, 2nd ed., section 6-6, as the ruled surface between an edge and a point.)
+    plane. The triangle as half of a parallelogram is ``Plane`` with u + w <= 1. (Piegl & Tiller, The NURBS Book,
+    2nd ed., section 8.4, as the ruled surface between an edge and a point.)
 
     Parameters
     ----------

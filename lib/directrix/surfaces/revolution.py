@@ -26,8 +26,9 @@ class CircularSweep(Surface):
     angle w; about x and y the coordinates change places in a ring, so about y: (x c + z s, y, -x s + z c). In CAD: revolve.
     The lecture's board form (x c, y, x s) about y is the other sense: a negative angle. Where the curve meets the axis the
     edge w collapses to a point. Multiples of a quarter turn are exact, and a whole turn closes bit for bit. Derivatives to
-    any order in w, in u as far as the curve's own. (Rogers & Adams, Mathematical Elements for Computer Graphics, 2nd ed.,
-    section 6-3; they write row vectors, so their matrices are transposed.)
+    any order in w, in u as far as the curve's own. (Piegl & Tiller, The NURBS Book, 2nd ed., section 8.5, the
+    surface of revolution, there rational and not at constant speed. Rogers & Adams, Mathematical Elements for Computer
+    Graphics, 2nd ed., chapter 6, write row vectors, so their matrices are transposed.)
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ class GenericSweep(Surface):
     With 'fixed' derivatives reach as far as those of the curves; the moving frames go to the second order in w, from their
     angular velocity and its rate. These take derivatives of D up to the fourth ('frenet') or third ('minimal'): exact for
     curves of the library, numeric for other callables (S_ww then to about 1e-5).
-    (Mortenson, Geometric Modeling, 3rd ed., section 9.2.)
+    (Piegl & Tiller, The NURBS Book, 2nd ed., section 10.4, swept surfaces.)
 
     Parameters
     ----------

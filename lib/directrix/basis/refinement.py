@@ -1,0 +1,111 @@
+"""The same spline on other knots or of higher degree, by blossoms: knot insertion, clamping, cutting, degree elevation.
+
+The blossom f[a_1, ..., a_p] of a polynomial of degree p is the one function that is symmetric, affine in each argument and
+f[t, ..., t] = f(t). The control points of a spline are its blossom at neighbouring knots, P_j = f[t_(j+1), ..., t_(j+p)], so
+the control points on any finer knots are blossoms too, and nothing is ever fitted (L. Ramshaw, Blossoms are polar forms, CAGD 6
+(1989) 323-358; Piegl & Tiller, The NURBS Book, 2nd ed., chapter 5, has the same results by algorithms of their own).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from directrix.basis.spline import spline_span
+from directrix.checks import Array
+
+
+def blossom(knots: Array, order: int, points: Array, span: int, arguments: Array) -> Array:
+    """The blossom of a spline's polynomial piece on [t_span, t_(span+1)], at degree = order - 1 arguments.
+
+    de Boor's recursion with a new argument in each round: d_i <- (1 - α) d_(i-1) + α d_i, α = (a_r - t_i)/(t_(i+p+1-r) - t_i).
+
+    Parameters
+    ----------
+    knots : (m + k,)
+    points : (m, ...) control points along axis 0
+    span : index of a span that is not empty, inside the domain
+    arguments : (k - 1,)
+
+    Examples
+    --------
+    >>> line = np.array([[0.0], [2.0], [4.0]])
+    >>> blossom(np.array([0.0, 0, 0, 2, 2, 2]), 3, line, 2, np.array([0.0, 1.0])).tolist()
+    [1.0]
+    """
+    degree = order - 1
+    near = np.array(points[span - degree : span + 1])
+    for r, a in enumerate(arguments, start=1):
+        for i in range(span, span - degree + r - 1, -1):
+            share = (a - knots[i]) / (knots[i + degree + 1 - r] - knots[i])
+            j = i - span + degree
+            near[j] = (1 - share) * near[j - 1] + share * near[j]
+    return np.asarray(near[degree])
+
+
+def on_knots(knots: Array, order: int, points: Array, values: Array) -> Array:
+    """Control points of the same spline on other knots, of the same order.
+
+    Parameters
+    ----------
+    knots : (m + k,) the old knots
+    order : k = degree + 1
+    points : (m, ...) old control points along axis 0
+    values : the new knots; on their domain, which lies in the old one, every old knot occurs at least as often as before
+
+    Returns
+    -------
+    (len(values) - k, ...)
+
+    Examples
+    --------
+    >>> on_knots(np.array([0.0, 0, 2, 2]), 2, np.array([[0.0], [4.0]]), np.array([0.0, 0, 1, 2, 2])).ravel().tolist()
+    [0.0, 2.0, 4.0]
+    """
+    spans = _pieces(knots, order, values, order)
+    return np.stack([blossom(knots, order, points, span, values[j + 1 : j + order]) for j, span in enumerate(spans)])
+
+
+def raised(knots: Array, order: int, points: Array) -> tuple[Array, Array]:
+    """Knots and control points of the same spline with its degree raised by one; each distinct knot of the domain once more.
+
+    F[a_0, ..., a_p] = Σ_i f[all but a_i] / (p + 1). Ends that are not clamped become so.
+
+    Examples
+    --------
+    >>> raised(np.array([0.0, 0, 1, 1]), 2, np.array([[0.0], [4.0]]))[1].ravel().tolist()
+    [0.0, 2.0, 4.0]
+    """
+    inner = knots[(knots > knots[order - 1]) & (knots < knots[-order])]
+    start, end = knots[order - 1], knots[-order]
+    values = np.sort(np.concatenate([[start] * (order + 1), inner, np.unique(inner), [end] * (order + 1)]))
+    result = []
+    for j, span in enumerate(_pieces(knots, order, values, order + 1)):
+        arguments = values[j + 1 : j + order + 1]
+        parts = [blossom(knots, order, points, span, np.delete(arguments, i)) for i in range(order)]
+        result.append(sum(parts[1:], parts[0]) / order)
+    return values, np.stack(result)
+
+
+def clamped(knots: Array, order: int, start: float, end: float, times: int = 0) -> Array:
+    """Knots for the part [start, end] of a spline: both ends repeated ``order`` times, each inner knot at least ``times``.
+
+    Examples
+    --------
+    >>> clamped(np.array([0.0, 1, 2, 3, 4]), 2, 1.5, 3.0).tolist()
+    [1.5, 1.5, 2.0, 3.0, 3.0]
+    """
+    inner = knots[(knots > start) & (knots < end)]
+    distinct, counts = np.unique(inner, return_counts=True)
+    inner = np.repeat(distinct, np.maximum(counts, times))
+    return np.concatenate([[start] * order, inner, [end] * order])
+
+
+def _pieces(knots: Array, order: int, values: Array, new_order: int) -> list[int]:
+    """For each new basis function a span of the old knots in which it does not vanish."""
+    start, end = values[new_order - 1], values[-new_order]
+    middles = []
+    for j in range(len(values) - new_order):
+        support = values[j : j + new_order + 1]
+        wide = np.nonzero((np.diff(support) > 0) & (support[:-1] >= start) & (support[1:] <= end))[0]
+        middles.append((support[wide[0]] + support[wide[0] + 1]) / 2)
+    return [int(span) for span in spline_span(knots, order, np.array(middles))]
