@@ -19,7 +19,7 @@ from directrix.plot.scene import VIEWS, Box, camera, coloured, encode, layout, l
 
 HEIGHT = 430
 LINES = 8  # parameter lines each way, apart from the edges: every eighth of the range
-FAR = 4.0  # a surface that runs further out than this many sizes of the reference leaves the picture
+FAR = 8.0  # a surface that runs further out than this many sizes of the reference leaves the picture
 FARTHER = 1.14  # two narrow scenes want their cameras a little further away
 DOMAINS = ((0.0, 0.455), (0.465, 0.92))
 
@@ -74,19 +74,23 @@ def comparison(
         shown, name = (right, names[0]) if yours is None else (_points("yours", yours, axes), names[1])
         return _alone(axes, shown, name, title, same)
     left = _points("yours", yours, axes)
-    size = size or size_of(right)
-    off = deviation(right, left) / size
+    off = deviation(right, left) / (size or size_of(right))
     place = _worst(axes, off, worst)
+    left, far = _within_reach(right, left)
     draw = _two_curves if len(axes) == 1 else _two_scenes
-    return draw(axes, right, left, off, place, names, title)
+    built = draw(axes, right, left, off, place, names, title)
+    if far:
+        built["layout"]["annotations"].append(word(far, 0.69 if len(axes) == 2 else 0.5, 0.02))
+        built["layout"]["meta"]["alt"] += f" {far}."
+    return built
 
 
 def _two_scenes(
     axes: list[Array], right: Array, left: Array, off: Array, place: Array | None, names: tuple[str, str], title: str | None
 ) -> dict[str, Any]:
     u, w = axes
-    box, far = _box(right, left)
-    top = float(np.nanmax(off)) if np.isfinite(off).any() else 0.0
+    box = _box(right, left)
+    top = min(float(np.nanmax(off)), FAR) if np.isfinite(off).any() else 0.0
     limits = (0.0, top if top > 0 else 1.0)
     bar = {
         "title": {"text": "off by<br>÷ size", "font": {"size": 12}}, "thickness": 12, "len": 0.78, "x": 0.935,
@@ -94,9 +98,19 @@ def _two_scenes(
     }  # fmt: skip
     data = [
         traces.surface(right, u, w, scene="scene", name=names[0]),
-        traces.surface(left, u, w, colour=off, bar=bar, limits=limits, says="off by (÷ size)", scene="scene2", name=names[1]),
+        traces.surface(
+            left,
+            u,
+            w,
+            colour=np.minimum(off, 1e6),
+            bar=bar,
+            limits=limits,
+            says="off by (÷ size)",
+            scene="scene2",
+            name=names[1],
+        ),
     ]
-    data += _lines(right, u, w, "scene") + _lines(left, u, w, "scene2")
+    data += _lines(right, u, w, size_of(right), "scene") + _lines(left, u, w, size_of(right), "scene2")
     data += _marked(axes, right, left, place, "scene", "scene2")
     notes = [
         word(f"<b>{short(names[0])}</b>", sum(DOMAINS[0]) / 2, 1.0, size=14),
@@ -104,11 +118,9 @@ def _two_scenes(
         word(legend(extra=coloured("◆ largest deviation", palette.MARK) if place is not None else ""), 0.99, -0.03,
              anchor="right", yanchor="top"),
     ]  # fmt: skip
-    if far:
-        notes.append(word(f"runs out of the picture: {far}", sum(DOMAINS[1]) / 2, 0.02))
     alt = (
         f"Two 3-D scenes on the same axes whose cameras turn together. Left: {names[0]}. Right: {names[1]}, coloured by its "
-        f"deviation. {_said(off, place)}{f' It runs out of the picture: {far}.' if far else ''}"
+        f"deviation. {_said(off, place)}"
     )
     corner = box.corner(None if place is None else between(axes, right, place))
     figure = layout(height=HEIGHT, title=title, alt=alt, link=("scene", "scene2"))
@@ -125,7 +137,7 @@ def _two_scenes(
 def _two_curves(
     axes: list[Array], right: Array, left: Array, off: Array, place: Array | None, names: tuple[str, str], title: str | None
 ) -> dict[str, Any]:
-    box, far = _box(right, left)
+    box = _box(right, left)
     data = [
         traces.curve(right, axes[0], colour=palette.REFERENCE, name=names[0], width=8),
         traces.curve(left, axes[0], colour=palette.YOURS, name=names[1], width=5, dash="dash"),
@@ -135,7 +147,6 @@ def _two_curves(
         coloured(f"━ {short(names[0])}", palette.REFERENCE),
         coloured(f"╍ {short(names[1])}", palette.YOURS),
         *([coloured("◆ largest deviation", palette.MARK)] if place is not None else []),
-        *([f"runs out of the picture: {far}"] if far else []),
     ]
     alt = f"One 3-D scene with two curves: {names[0]}, and {names[1]} dashed. {_said(off, place)}"
     figure = layout(height=HEIGHT, title=title, alt=alt)
@@ -150,7 +161,7 @@ def _alone(axes: list[Array], points: Array, name: str, title: str | None, same:
     if len(axes) == 1:
         data = [traces.curve(points, axes[0], colour=palette.U, name=name)]
     else:
-        data = [traces.surface(points, *axes, name=name), *_lines(points, *axes, "scene")]
+        data = [traces.surface(points, *axes, name=name), *_lines(points, *axes, size_of(points), "scene")]
         words.append(legend())
     figure |= {
         "scene": scene(Box.around(points)),
@@ -166,19 +177,19 @@ def edges_and_lines(count: int, lines: int) -> tuple[list[int], list[int]]:
     return [0, count - 1], inner
 
 
-def _lines(points: Array, u: Array, w: Array, where: str) -> list[dict[str, Any]]:
+def _lines(points: Array, u: Array, w: Array, size: float, where: str) -> list[dict[str, Any]]:
     """Parameter lines inside, the edges thicker, and the letters that say which way u and w run."""
     rows, columns = edges_and_lines(len(u), LINES), edges_and_lines(len(w), LINES)
     drawn = [
-        traces.parameter_lines(points, along="u", at=columns[1], width=1.5, scene=where),
-        traces.parameter_lines(points, along="w", at=rows[1], width=1.5, scene=where),
-        traces.parameter_lines(points, along="u", at=columns[0], width=3.5, scene=where),
-        traces.parameter_lines(points, along="w", at=rows[0], width=3.5, scene=where),
+        traces.parameter_lines(points, size, along="u", at=columns[1], width=1.5, scene=where),
+        traces.parameter_lines(points, size, along="w", at=rows[1], width=1.5, scene=where),
+        traces.parameter_lines(points, size, along="u", at=columns[0], width=3.5, scene=where),
+        traces.parameter_lines(points, size, along="w", at=rows[0], width=3.5, scene=where),
     ]
-    return [trace for trace in drawn if len(trace["x"])] + letters(points, where)
+    return [trace for trace in drawn if np.isfinite(trace["x"]).any()] + letters(points, size, where)
 
 
-def letters(points: Array, where: str, labels: tuple[str, str] = ("u", "w")) -> list[dict[str, Any]]:
+def letters(points: Array, size: float, where: str, labels: tuple[str, str] = ("u", "w")) -> list[dict[str, Any]]:
     """A dot where u = w = 0, and each letter a quarter along its edge from there."""
     places = [(len(points) // 4, 0), (0, points.shape[1] // 4)]
     ends = np.stack([points[place] for place in places])
@@ -186,7 +197,7 @@ def letters(points: Array, where: str, labels: tuple[str, str] = ("u", "w")) -> 
         low, high = bounds(points)
         away = np.stack([grid_normals(points)[place] for place in places])
         sign = np.sign(np.sum(away * (ends - (low + high) / 2), axis=1, keepdims=True))
-        ends = ends + 0.035 * size_of(points) * away * np.where(sign == 0, 1.0, sign)
+        ends = ends + 0.035 * size * away * np.where(sign == 0, 1.0, sign)
     start = points[:1, 0]
     placed = [traces.words(ends, labels, (palette.U, palette.W), scene=where)] if np.isfinite(ends).all() else []
     if np.isfinite(start).all():
@@ -230,17 +241,32 @@ def _worst(axes: list[Array], off: Array, worst: Sequence[float] | None) -> Arra
     return np.array([axis[i] for axis, i in zip(axes, index, strict=True)])
 
 
-def _box(right: Array, left: Array) -> tuple[Box, str]:
-    """The common box. A surface that runs far out is cut, or the reference would be a dot; the words say how far."""
-    finite = left[np.isfinite(left).all(axis=-1)]
-    if not len(finite):
-        return Box.around(right), "no point of it is finite"
+def _within_reach(right: Array, left: Array) -> tuple[Array, str]:
+    """``left`` without the points that are so far out that float32 and the eye lose them, and the words that say so."""
+    finite = np.isfinite(left).all(axis=-1)
+    if not finite.any():
+        return left, "no point of yours is finite"
     size, centre = size_of(right), np.nanmean(right.reshape(-1, 3), axis=0)
-    reach = float(np.linalg.norm(finite - centre, axis=-1).max())
-    if reach <= FAR * size:
-        return Box.around(right, finite), ""
-    near = np.clip(finite, centre - size, centre + size)
-    return Box.around(right, near), f"up to {reach / size:.3g} sizes away"
+    with np.errstate(over="ignore", invalid="ignore"):
+        reach = np.linalg.norm(left - centre, axis=-1) / size
+    reach = np.where(finite & ~np.isfinite(reach), np.inf, reach)
+    furthest = float(np.nanmax(np.where(finite, reach, np.nan)))
+    kept = np.where((reach <= 100 * FAR)[..., None], left, np.nan)
+    if furthest <= FAR:
+        return kept, "" if finite.all() else f"{int((~finite).sum())} of {finite.size} points of yours are not finite"
+    return (
+        kept,
+        f"yours runs out of the picture, {f'up to {furthest:.3g}' if furthest < 1e9 else 'more than a billion'} sizes away",
+    )
+
+
+def _box(right: Array, left: Array) -> Box:
+    """The common box; a surface that runs far out is cut, or the reference would be a dot."""
+    size, centre = size_of(right), np.nanmean(right.reshape(-1, 3), axis=0)
+    finite = left[np.isfinite(left).all(axis=-1)]
+    if len(finite) and np.linalg.norm(finite - centre, axis=-1).max() > FAR * size:
+        finite = np.clip(finite, centre - size, centre + size)
+    return Box.around(right, finite)
 
 
 def _views(scenes: tuple[str, ...], corner: tuple[float, float, float]) -> dict[str, Any]:
@@ -274,6 +300,6 @@ def _at(place: Array) -> str:
 
 def _said(off: Array, place: Array | None) -> str:
     if place is None:
-        return "They agree."
+        return "They agree." if np.isfinite(off).all() else ""
     top = f"{np.nanmax(off):.3g} of its size" if np.isfinite(off).any() else "not finite"
     return f"Largest deviation {top}, marked at {_at(place)}."

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-LABEXTENSION = Path(__file__).with_name("labextension")
+LABEXTENSIONS = Path(__file__).with_name("labextensions")
 
 
 def head(*, plotly_url: str | None = None) -> str:
@@ -32,7 +32,7 @@ def fragment(figure: Mapping[str, Any] | Any) -> str:
     ``figure`` is a plotly Figure or its JSON dict. Whatever strings it holds, they cannot leave the ``<script>`` element.
     """
     plain = figure if isinstance(figure, Mapping) else json.loads(figure.to_json())
-    shown = {"data": plain.get("data", []), "layout": plain.get("layout", {})}
+    shown = {"data": plain.get("data", []), "layout": plain.get("layout", {}), "frames": plain.get("frames", [])}
     height = shown["layout"].get("height", 450)
     height = min(max(float(height), 100.0), 2000.0) if isinstance(height, int | float) else 450.0
     meta = shown["layout"].get("meta")
@@ -47,7 +47,7 @@ def fragment(figure: Mapping[str, Any] | Any) -> str:
 
 def figures_js() -> str:
     """The text of figures.js, which links cameras and draws fragments."""
-    return (LABEXTENSION / "static" / "figures.js").read_text("utf-8")
+    return (LABEXTENSIONS / "directrix-figures" / "static" / "figures.js").read_text("utf-8")
 
 
 @functools.cache

@@ -20,7 +20,7 @@ VIEWS = {
     "from −y": {"eye": {"x": 0, "y": -1.9, "z": 0}, "up": {"x": 0, "y": 0, "z": 1}},
     "from +z": {"eye": {"x": 0, "y": 0, "z": 1.9}, "up": {"x": 0, "y": 1, "z": 0}},
 }
-CENTRE = {"x": 0, "y": 0, "z": -0.04}
+CENTRE = {"x": 0, "y": 0, "z": -0.1}
 
 
 @dataclass(frozen=True)

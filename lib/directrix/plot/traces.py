@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from directrix.plot import palette
-from directrix.plot.sampling import Array, grid_normals, size_of
+from directrix.plot.sampling import Array, grid_normals
 
 Trace = dict[str, Any]
 LIFT = 0.0015
@@ -74,12 +74,13 @@ def surface(
     return trace
 
 
-def parameter_lines(points: Array, *, along: str, at: Iterable[int], width: float = 2.0, **style: Any) -> Trace:
+def parameter_lines(points: Array, size: float, *, along: str, at: Iterable[int], width: float = 2.0, **style: Any) -> Trace:
     """The curves of a sampled surface on which one parameter is held, in the colour of the one that runs.
 
     ``along="u"``: w is held at the columns ``at`` and u runs. ``along="w"``: u is held at the rows ``at`` and w runs.
+    ``size`` is that of the picture, of which the lift is a share.
     """
-    lift = LIFT * size_of(points) * grid_normals(points)
+    lift = LIFT * size * grid_normals(points)
     picked = sorted(set(at))
     sides = [points + lift, points - lift]
     curves = [side[:, j] if along == "u" else side[j] for side in sides for j in picked]

@@ -120,13 +120,14 @@ def _surface(
     name = short(_name_of(f))
     rows = edges_and_lines(samples, lines)
     built = [traces.surface(points, u, w, name=name) if colour is None else _curved(f, points, u, w, colour, name)]
+    size = size_of(points)
     drawn = [
-        traces.parameter_lines(points, along="u", at=rows[1], width=1.5),
-        traces.parameter_lines(points, along="w", at=rows[1], width=1.5),
-        traces.parameter_lines(points, along="u", at=rows[0], width=5),
-        traces.parameter_lines(points, along="w", at=rows[0], width=5),
+        traces.parameter_lines(points, size, along="u", at=rows[1], width=1.5),
+        traces.parameter_lines(points, size, along="w", at=rows[1], width=1.5),
+        traces.parameter_lines(points, size, along="u", at=rows[0], width=5),
+        traces.parameter_lines(points, size, along="w", at=rows[0], width=5),
     ]
-    built += [trace for trace in drawn if len(trace["x"])] + letters(points, "scene")
+    built += [trace for trace in drawn if len(trace["x"])] + letters(points, size, "scene")
     notes = [legend()]
     if knots is not None:
         built += _knot_lines(f, u, knots)

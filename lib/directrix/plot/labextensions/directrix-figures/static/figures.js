@@ -90,8 +90,8 @@
       var text = holder.querySelector("script").textContent, figure = JSON.parse(text);
       holder._drawn = document.createElement("div");
       holder.appendChild(holder._drawn);
-      var config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["sendChartToCloud"] };
-      window.Plotly.newPlot(holder._drawn, figure.data, figure.layout, config);
+      figure.config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["sendChartToCloud"] };
+      window.Plotly.newPlot(holder._drawn, figure);
     }
     function clear(holder) {
       if (!holder._drawn) return;
