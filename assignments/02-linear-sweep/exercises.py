@@ -33,7 +33,7 @@ def any_vector(rng, shortest=1.5, longest=4.0):
 # A2.1 ------------------------------------------------------------------------------------------------------------------------
 
 
-@exercise(points=4, title="Direction cosines and distance", kind="value", tolerance=1e-12)
+@exercise(points=4, title="Direction cosines and distance", kind="value", tolerance=1e-12, accept={"close": 0.8})
 def direction_cosines(a, b):
     """Return the array (l, m, n, d): the unit direction (l, m, n) from the point a to the point b, and their distance d.
 

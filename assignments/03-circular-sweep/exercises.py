@@ -68,129 +68,6 @@ def about_z(x, y, z, t):
 ABOUT = {"x": about_x, "y": about_y, "z": about_z}
 
 
-# The lecture's example ---------------------------------------------------------------------------------------------------------
-
-
-@exercise(points=5, title="Sweep a line into a cone", kind="surface")
-def cone_from_line(u, w, a, b):
-    """Return the points of the surface that the straight line from a to b sweeps when it turns once about the y axis.
-
-    The line lies in the xy-plane. u runs along it, from a (u = 0) to b (u = 1); w turns it once round the y axis by the
-    right-hand rule: thumb along +y, the fingers show the way, from +z to +x and from +x to -z.
-    Where an end lies on the axis, the cone is complete and that whole edge is its apex.
-
-    u, w : numbers or arrays in [0, 1] that broadcast against each other
-    a, b : points, arrays of shape (3,) with z = 0, not the same point
-
-    Returns the points, shape of u and w together + (3,).
-    """
-    return dx.CircularSweep(dx.Line(a, b), "y")(u, w)
-
-
-def _on_line(u, a, b):
-    """x and y of the point that divides the line from a to b at u."""
-    return a[0] + (b[0] - a[0]) * np.asarray(u), a[1] + (b[1] - a[1]) * np.asarray(u)
-
-
-@cone_from_line.data
-def truncated(rng):
-    return {"a": [3.0, 0.0, 0.0], "b": [1.0, 4.0, 0.0]}
-
-
-@cone_from_line.data
-def any_line(rng):
-    return {"a": [rng.uniform(1.0, 2.0), rng.uniform(0.5, 1.5), 0.0], "b": [rng.uniform(3.0, 4.0), rng.uniform(3.0, 5.0), 0.0]}
-
-
-@cone_from_line.data
-def complete(rng):
-    return {"a": [rng.uniform(1.5, 3.0), -rng.uniform(1.0, 2.0), 0.0], "b": [0.0, rng.uniform(1.0, 3.0), 0.0]}
-
-
-@cone_from_line.data
-def through_the_axis(rng):
-    return {
-        "a": [-rng.uniform(1.0, 2.0), -rng.uniform(1.0, 2.0), 0.0],
-        "b": [rng.uniform(2.5, 3.5), rng.uniform(1.0, 3.0), 0.0],
-    }
-
-
-@cone_from_line.data(blind=True)
-def apex_in_the_origin(rng):
-    return {"a": [0.0, 0.0, 0.0], "b": [2.0, 3.0, 0.0]}
-
-
-@cone_from_line.mistake("negative_sense", credit=0.5)
-def _(u, w, a, b):
-    """The right cone, turned the other way: you gave z = + x sin, as on the board, where no sense is fixed. Point your right
-    thumb along +y and look where the fingers take a point of the x axis after a quarter turn."""
-    x, y = _on_line(u, a, b)
-    return points(x * np.cos(TURN * w), y, x * np.sin(TURN * w))
-
-
-@cone_from_line.mistake("about_x", credit=0.25)
-def _(u, w, a, b):
-    """You turned the line about the x axis. Whichever axis you turn about, the coordinate along it must stay the same: which of
-    yours does?"""
-    x, y = _on_line(u, a, b)
-    return points(x, y * np.cos(TURN * w), y * np.sin(TURN * w))
-
-
-@cone_from_line.mistake("about_z", credit=0.25)
-def _(u, w, a, b):
-    """You turned the line about the z axis. It lies in the xy-plane and never leaves it that way: your surface is flat. Which
-    coordinate must stay the same while it turns about y?"""
-    x, y = _on_line(u, a, b)
-    return points(*about_z(x, y, 0.0, TURN * w))
-
-
-@cone_from_line.mistake("frustum_about_z", credit=0.5)
-def _(u, w, a, b):
-    """A good frustum with its axis along z, as in the known form. Here the axis is y: the heights of a and b must stay in your
-    second coordinate."""
-    x, y = _on_line(u, a, b)
-    return points(x * np.cos(TURN * w), x * np.sin(TURN * w), y)
-
-
-@cone_from_line.mistake("swap_uw", credit=0.5)
-def _(u, w, a, b):
-    """The right cone with the two parameters exchanged: your u goes round and your w runs along the line. This is how the known
-    form of the frustum labels it; in a sweep u belongs to the generatrix. Which of the two curves is the generatrix here?"""
-    x, y = _on_line(w, a, b)
-    return points(x * np.cos(TURN * u), y, -x * np.sin(TURN * u))
-
-
-@cone_from_line.mistake("reversed", credit=0.5)
-def _(u, w, a, b):
-    """The right cone, its line run from b to a. Where is your point for u = 0, w = 0?"""
-    x, y = _on_line(u, b, a)
-    return points(x * np.cos(TURN * w), y, -x * np.sin(TURN * w))
-
-
-@cone_from_line.mistake("degrees", credit=0.5)
-def _(u, w, a, b):
-    """You turn by 360 w. NumPy's sine and cosine take radians, so your line goes round more than 57 times and stops in the
-    middle of a turn. What is a whole turn in radians?"""
-    x, y = _on_line(u, a, b)
-    return points(x * np.cos(360 * w), y, -x * np.sin(360 * w))
-
-
-@cone_from_line.mistake("no_2pi", credit=0.25)
-def _(u, w, a, b):
-    """You took w itself for the angle. w ends at 1, and one radian is less than a sixth of the way round: you have a narrow
-    strip of the cone. Which angle brings the line back to its start?"""
-    x, y = _on_line(u, a, b)
-    return points(x * np.cos(w), y, -x * np.sin(w))
-
-
-@cone_from_line.mistake("b_is_a_vector", credit=0.25)
-def _(u, w, a, b):
-    """Your line starts at a and goes on by the whole of b, so it does not end there. With a in the origin nobody notices. Where
-    is your point for u = 1, w = 0?"""
-    x, y = a[0] + b[0] * np.asarray(u), a[1] + b[1] * np.asarray(u)
-    return points(x * np.cos(TURN * w), y, -x * np.sin(TURN * w))
-
-
 # A3.1 ------------------------------------------------------------------------------------------------------------------------
 
 
@@ -388,6 +265,129 @@ def _(u, w, curve, axis, angle):
     """The right surface with the two parameters exchanged: your w runs along the curve and your u turns it. Hold w at 0 and let
     u run: the statement wants the curve there, in its own place."""
     return points(*ABOUT[axis](*coordinates(curve, w), angle * u))
+
+
+# The lecture's example ---------------------------------------------------------------------------------------------------------
+
+
+@exercise(points=5, title="Sweep a line into a cone", kind="surface")
+def cone_from_line(u, w, a, b):
+    """Return the points of the surface that the straight line from a to b sweeps when it turns once about the y axis.
+
+    The line lies in the xy-plane. u runs along it, from a (u = 0) to b (u = 1); w turns it once round the y axis by the
+    right-hand rule: thumb along +y, the fingers show the way, from +z to +x and from +x to -z.
+    Where an end lies on the axis, the cone is complete and that whole edge is its apex.
+
+    u, w : numbers or arrays in [0, 1] that broadcast against each other
+    a, b : points, arrays of shape (3,) with z = 0, not the same point
+
+    Returns the points, shape of u and w together + (3,).
+    """
+    return dx.CircularSweep(dx.Line(a, b), "y")(u, w)
+
+
+def _on_line(u, a, b):
+    """x and y of the point that divides the line from a to b at u."""
+    return a[0] + (b[0] - a[0]) * np.asarray(u), a[1] + (b[1] - a[1]) * np.asarray(u)
+
+
+@cone_from_line.data
+def truncated(rng):
+    return {"a": [3.0, 0.0, 0.0], "b": [1.0, 4.0, 0.0]}
+
+
+@cone_from_line.data
+def any_line(rng):
+    return {"a": [rng.uniform(1.0, 2.0), rng.uniform(0.5, 1.5), 0.0], "b": [rng.uniform(3.0, 4.0), rng.uniform(3.0, 5.0), 0.0]}
+
+
+@cone_from_line.data
+def complete(rng):
+    return {"a": [rng.uniform(1.5, 3.0), -rng.uniform(1.0, 2.0), 0.0], "b": [0.0, rng.uniform(1.0, 3.0), 0.0]}
+
+
+@cone_from_line.data
+def through_the_axis(rng):
+    return {
+        "a": [-rng.uniform(1.0, 2.0), -rng.uniform(1.0, 2.0), 0.0],
+        "b": [rng.uniform(2.5, 3.5), rng.uniform(1.0, 3.0), 0.0],
+    }
+
+
+@cone_from_line.data(blind=True)
+def apex_in_the_origin(rng):
+    return {"a": [0.0, 0.0, 0.0], "b": [2.0, 3.0, 0.0]}
+
+
+@cone_from_line.mistake("negative_sense", credit=0.5)
+def _(u, w, a, b):
+    """The right cone, turned the other way: you gave z = + x sin, as on the board, where no sense is fixed. Point your right
+    thumb along +y and look where the fingers take a point of the x axis after a quarter turn."""
+    x, y = _on_line(u, a, b)
+    return points(x * np.cos(TURN * w), y, x * np.sin(TURN * w))
+
+
+@cone_from_line.mistake("about_x", credit=0.25)
+def _(u, w, a, b):
+    """You turned the line about the x axis. Whichever axis you turn about, the coordinate along it must stay the same: which of
+    yours does?"""
+    x, y = _on_line(u, a, b)
+    return points(x, y * np.cos(TURN * w), y * np.sin(TURN * w))
+
+
+@cone_from_line.mistake("about_z", credit=0.25)
+def _(u, w, a, b):
+    """You turned the line about the z axis. It lies in the xy-plane and never leaves it that way: your surface is flat. Which
+    coordinate must stay the same while it turns about y?"""
+    x, y = _on_line(u, a, b)
+    return points(*about_z(x, y, 0.0, TURN * w))
+
+
+@cone_from_line.mistake("frustum_about_z", credit=0.5)
+def _(u, w, a, b):
+    """A good frustum with its axis along z, as in the known form. Here the axis is y: the heights of a and b must stay in your
+    second coordinate."""
+    x, y = _on_line(u, a, b)
+    return points(x * np.cos(TURN * w), x * np.sin(TURN * w), y)
+
+
+@cone_from_line.mistake("swap_uw", credit=0.5)
+def _(u, w, a, b):
+    """The right cone with the two parameters exchanged: your u goes round and your w runs along the line. This is how the known
+    form of the frustum labels it; in a sweep u belongs to the generatrix. Which of the two curves is the generatrix here?"""
+    x, y = _on_line(w, a, b)
+    return points(x * np.cos(TURN * u), y, -x * np.sin(TURN * u))
+
+
+@cone_from_line.mistake("reversed", credit=0.5)
+def _(u, w, a, b):
+    """The right cone, its line run from b to a. Where is your point for u = 0, w = 0?"""
+    x, y = _on_line(u, b, a)
+    return points(x * np.cos(TURN * w), y, -x * np.sin(TURN * w))
+
+
+@cone_from_line.mistake("degrees", credit=0.5)
+def _(u, w, a, b):
+    """You turn by 360 w. NumPy's sine and cosine take radians, so your line goes round more than 57 times and stops in the
+    middle of a turn. What is a whole turn in radians?"""
+    x, y = _on_line(u, a, b)
+    return points(x * np.cos(360 * w), y, -x * np.sin(360 * w))
+
+
+@cone_from_line.mistake("no_2pi", credit=0.25)
+def _(u, w, a, b):
+    """You took w itself for the angle. w ends at 1, and one radian is less than a sixth of the way round: you have a narrow
+    strip of the cone. Which angle brings the line back to its start?"""
+    x, y = _on_line(u, a, b)
+    return points(x * np.cos(w), y, -x * np.sin(w))
+
+
+@cone_from_line.mistake("b_is_a_vector", credit=0.25)
+def _(u, w, a, b):
+    """Your line starts at a and goes on by the whole of b, so it does not end there. With a in the origin nobody notices. Where
+    is your point for u = 1, w = 0?"""
+    x, y = a[0] + b[0] * np.asarray(u), a[1] + b[1] * np.asarray(u)
+    return points(x * np.cos(TURN * w), y, -x * np.sin(TURN * w))
 
 
 # A3.3 ------------------------------------------------------------------------------------------------------------------------

@@ -26,7 +26,7 @@ LISTED = {
 ASSIGNMENTS = {
     "A1": ["cylinder", "frustum", "sphere", "torus", "torus_class"],
     "A2": ["direction_cosines", "linear_sweep", "linear_sweep_points", "plane3", "triangle_mask", "triangle_patch"],
-    "A3": ["cone_from_line", "revolve_y", "revolve_coord", "revolve_xy_axis", "revolve_axis"],
+    "A3": ["revolve_y", "revolve_coord", "cone_from_line", "revolve_xy_axis", "revolve_axis"],
 }
 
 
