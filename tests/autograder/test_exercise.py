@@ -70,6 +70,13 @@ def test_drawn_curves_are_data_and_drawn_arrays_are_read_only():
         drawn[0].arguments["direction"][0] = 1.0
 
 
+def test_drawn_numbers_are_plain_numbers():
+    """np.float64 divides by zero with a warning and compares to np.bool, a float raises: learners' code must not meet both."""
+    sweep = linear_sweep()
+    sweep.data(lambda rng: {"curve": lambda t: np.stack([t, t, t], -1), "direction": [0, 0, 1], "d": rng.choice([1.0, 2.0])})
+    assert type(sweep.draw()[-1].arguments["d"]) is float
+
+
 def test_a_tuple_is_taken_in_order_and_defaults_fill_the_rest():
     """The blind data set gives two of three arguments."""
     assert linear_sweep().draw()[1].arguments["d"] == 2 * np.pi
