@@ -1,6 +1,6 @@
 """Grades whole classes: a course, its submissions, one report."""
 
-from autograder.fleet.course import Course
+from autograder.course import Course
 from autograder.fleet.grade import grade
 from autograder.fleet.result import CellReport, GradeReport, StudentReport
 

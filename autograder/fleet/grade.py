@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import datetime
 import hashlib
 import logging
 import os
@@ -16,16 +17,15 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from pathlib import Path
 
+from autograder.course import Course
 from autograder.errors import CourseError, SandboxError, SubmissionError
 from autograder.exercise import Exercise
 from autograder.fleet import publish
-from autograder.fleet.course import Course
 from autograder.fleet.journal import Entry, Journal, only_grader
 from autograder.fleet.one import Outcome, Plan, grade_one
 from autograder.fleet.result import GradeReport, StudentReport
 from autograder.fleet.timestamps import FILE, handed_in
-from autograder.gradebook import AssignmentRow, Gradebook, NotebookMarks, Record, Standing
-from autograder.notebook.master import Master
+from autograder.gradebook import Gradebook, NotebookMarks, Record, Standing
 from autograder.notebook.session import needs, opened
 from autograder.notebook.submission import read_file, read_folder
 
@@ -78,11 +78,6 @@ def grade(
         return run.report(time.monotonic() - started)
 
 
-def masters_of(course: Course, row: AssignmentRow) -> dict[str, Master]:
-    """The instructor's copies with what the released files say beside them."""
-    return {name: notebook.master.beside(course.instructor_file(row.name, name)) for name, notebook in row.notebooks.items()}
-
-
 def _chosen(course: Course, assignment: str, students: Iterable[str] | None) -> dict[str, Path]:
     there = course.submissions(assignment)
     if students is None:
@@ -101,7 +96,7 @@ class _Run:
     def __init__(self, course: Course, book: Gradebook, assignment: str, level: str, progress: Progress | None) -> None:
         self.course, self.book, self.level, self.progress = course, book, level, progress
         self.row = book.assignment(assignment)
-        self.masters = masters_of(course, self.row)
+        self.masters = course.masters(self.row)
         if not self.masters:
             raise CourseError(f"{assignment} has no notebook in the gradebook; release it: directrix release {assignment}")
         self.journal = Journal(course.room, assignment)
@@ -275,7 +270,7 @@ def _refreshed(report: StudentReport, marked: Mapping[tuple[str, str], tuple[flo
     return dataclasses.replace(report, cells=tuple(cells))
 
 
-def _timestamp(place: Path) -> object:
+def _timestamp(place: Path) -> datetime.datetime | None:
     try:
         return handed_in({FILE: read_file(place / FILE, 1000)})
     except (SubmissionError, OSError):

@@ -5,17 +5,16 @@ Nothing here writes to the course: the gradebook and ``autograded/`` come after,
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 from typing import Any
 
+from autograder.course import Course
 from autograder.errors import SubmissionError
 from autograder.exercise import Exercise
-from autograder.fleet.course import Course
-from autograder.fleet.result import CellReport, StudentReport
+from autograder.fleet.result import CellReport, Status, StudentReport
 from autograder.fleet.timestamps import FILE, handed_in
 from autograder.gradebook import AssignmentRow, NotebookMarks, Record
 from autograder.notebook import limit
@@ -27,6 +26,7 @@ from autograder.notebook.score import annotate, marks, unanswered
 from autograder.notebook.secret import hidden_seed
 from autograder.notebook.session import OpenSession
 from autograder.notebook.submission import Submission, digest, parse
+from autograder.notebook.written import dumps
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def grade_one(plan: Plan, student: str, submitted: Submission) -> Outcome:
     work = _Work(plan, student, submitted)
     for name, master in plan.masters.items():
         work.grade(name, master)
-    status = "graded" if work.written else ("broken" if work.broken else "empty")
+    status: Status = "graded" if work.written else ("broken" if work.broken else "empty")
     report = StudentReport(
         student, status, tuple(work.cells), notes=tuple(work.notes), broken=tuple(work.broken), faults=tuple(work.faults),
         seconds=time.monotonic() - started,
@@ -118,7 +118,7 @@ class _Work:
             self.notes.append(f"{name}.ipynb: {again} its process; the cells after it ran in a fresh one")
         self.faults += [f"{name}.ipynb: {fault}" for fault in ran.faults]
         self._report(name, master, given, built, ran)
-        self.written[f"{name}.ipynb"] = (json.dumps(built.notebook, indent=1, ensure_ascii=False) + "\n").encode("utf-8")
+        self.written[f"{name}.ipynb"] = dumps(built.notebook)
 
     def _run(self, built: Rebuilt, master: Master, submission: str) -> Ran:
         def seed(exercise: str) -> bytes:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import datetime
 from collections.abc import Mapping
 
-import dateutil.parser
-import dateutil.tz
+from dateutil import parser, tz  # type: ignore[import-untyped]
 
 from autograder.errors import SubmissionError
 
@@ -32,14 +31,15 @@ def handed_in(files: Mapping[str, bytes]) -> datetime.datetime | None:
 
 def parse_utc(text: str) -> datetime.datetime:
     """A date as nbgrader writes it ("2027-02-03 15:00:00.000000 UTC", also with +0100 or a zone's name), in UTC."""
+    when: datetime.datetime
     parts = text.split(" ")
     if len(parts) == 3:
         try:
             zone: object = int(parts[2])
         except ValueError:
-            zone = dateutil.tz.gettz(parts[2])
-        when = dateutil.parser.parse(" ".join([*parts[:2], "TZ"]), tzinfos={"TZ": zone})
+            zone = tz.gettz(parts[2])
+        when = parser.parse(" ".join([*parts[:2], "TZ"]), tzinfos={"TZ": zone})
     else:
-        when = dateutil.parser.parse(text)
+        when = parser.parse(text)
     offset = when.utcoffset()
     return when if offset is None else (when - offset).replace(tzinfo=None)

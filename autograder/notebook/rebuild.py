@@ -127,7 +127,7 @@ def _claims(drafts: list[_Draft], master: Master, notes: list[Note]) -> dict[int
     """Which draft stands for which cell of the instructor: of several that claim one name, the last."""
     last: dict[str, int] = {}
     for number, draft in enumerate(drafts):
-        if draft.name in master.cells:
+        if draft.name is not None and draft.name in master.cells:
             if draft.name in last and not any(note.cell == draft.name for note in notes):
                 notes.append(Note(draft.name, "The cell is there more than once; the last one counts.", look=True))
             last[draft.name] = number

@@ -185,7 +185,7 @@ def parse(data: bytes) -> dict[str, Any]:
         Saying what is wrong with it, in words that a learner can act on.
     """
     try:
-        notebook = json.loads(data)
+        notebook: Any = json.loads(data)
     except UnicodeDecodeError:
         raise SubmissionError("the notebook is no text; perhaps another kind of file was renamed") from None
     except json.JSONDecodeError as error:
@@ -200,7 +200,7 @@ def parse(data: bytes) -> dict[str, Any]:
         notebook = _converted(notebook)
     if not isinstance(notebook.get("cells"), list):
         raise SubmissionError("the notebook has no list of cells")
-    return notebook
+    return dict(notebook)
 
 
 def _converted(notebook: dict[str, Any]) -> dict[str, Any]:
@@ -209,7 +209,7 @@ def _converted(notebook: dict[str, Any]) -> dict[str, Any]:
     import nbformat  # costs a second and is needed for notebooks of before 2015 only
 
     try:
-        converted: dict[str, Any] = nbformat.convert(nbformat.from_dict(notebook), 4)
+        converted: dict[str, Any] = nbformat.convert(nbformat.from_dict(notebook), 4)  # type: ignore[no-untyped-call]
     except Exception as error:
         raise SubmissionError(f"the notebook is in an old format that cannot be converted ({type(error).__name__})") from None
     return converted

@@ -23,8 +23,9 @@ from autograder import catalogue
 from autograder.catalogue import Catalogue
 from autograder.errors import CourseError
 from autograder.exercise import Exercise
-from autograder.gradebook import Gradebook, Penalty
+from autograder.gradebook import AssignmentRow, Gradebook, Penalty
 from autograder.notebook import secret, submission
+from autograder.notebook.master import Master
 from autograder.notebook.rebuild import MISSING
 from autograder.notebook.session import Packages
 
@@ -49,6 +50,8 @@ class Course:
     ----------
     path : path
         The folder that holds ``nbgrader_config.py``, or a folder laid out like nbgrader's without one.
+    config : Config, optional
+        The settings, where nbgrader has read them already.
 
     Raises
     ------
@@ -56,11 +59,11 @@ class Course:
         If it is no folder, or its configuration cannot be read.
     """
 
-    def __init__(self, path: Path | str) -> None:
+    def __init__(self, path: Path | str, config: Config | None = None) -> None:
         self.folder = Path(path).resolve()
         if not self.folder.is_dir():
             raise CourseError(f"no such folder: {path}; a course is a folder with nbgrader_config.py")
-        self.config = load_config(self.folder)
+        self.config = load_config(self.folder) if config is None else config
         self.root = (self.folder / str(self.get("CourseDirectory", "root", ""))).resolve()
 
     def __repr__(self) -> str:
@@ -110,6 +113,10 @@ class Course:
         """The released notebook of the instructor, else the source."""
         released = self.path("release", ".", assignment) / f"{notebook}.ipynb"
         return released if released.is_file() else self.path("source", ".", assignment) / f"{notebook}.ipynb"
+
+    def masters(self, of: AssignmentRow) -> dict[str, Master]:
+        """The instructor's copies of the notebooks, with what the released files say beside them."""
+        return {name: notebook.master.beside(self.instructor_file(of.name, name)) for name, notebook in of.notebooks.items()}
 
     def instructor_files(self, assignment: str) -> dict[str, bytes]:
         """Files of the assignment beside its notebooks, which overwrite the learner's (but for ``exclude_overwriting``)."""

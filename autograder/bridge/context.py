@@ -1,0 +1,126 @@
+"""What our preprocessors know of the run that nbgrader started: course, submission, instructor's copy, sandbox."""
+
+from __future__ import annotations
+
+import contextlib
+import weakref
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from autograder.course import Course
+from autograder.exercise import Exercise
+from autograder.gradebook import AssignmentRow
+from autograder.notebook.master import Master
+from autograder.notebook.rebuild import Rebuilt, rebuild
+from autograder.notebook.run import Ran, run
+from autograder.notebook.secret import hidden_seed
+from autograder.notebook.session import OpenSession, needs, opened
+from autograder.notebook.submission import digest, parse, read_file
+
+
+@dataclass
+class Context:
+    """One notebook of one student, as named in nbgrader's resources."""
+
+    course: Course
+    student: str
+    assignment: str
+    notebook: str
+    row: AssignmentRow
+    master: Master
+    converter: Any
+
+    @classmethod
+    def of(cls, preprocessor: Any, resources: Mapping[str, Any]) -> Context:
+        """The context of a preprocessor that nbgrader's Autograde runs."""
+        named = resources["nbgrader"]
+        converter = preprocessor.parent.parent
+        course = Course(converter.coursedir.root, config=preprocessor.config)
+        with course.gradebook() as book:
+            row = book.assignment(named["assignment"])
+        master = course.masters(row)[named["notebook"]]
+        return cls(course, named["student"], named["assignment"], named["notebook"], row, master, converter)
+
+    @property
+    def submitted(self) -> Path:
+        """The folder that was handed in."""
+        return self.course.path("submitted", self.student, self.assignment)
+
+    @property
+    def autograded(self) -> Path:
+        """The folder that nbgrader is filling."""
+        return self.course.path("autograded", self.student, self.assignment)
+
+    def data(self) -> bytes:
+        """The submitted notebook: a regular file, never through a link, bounded."""
+        return read_file(self.submitted / f"{self.notebook}.ipynb", self.course.bounds.notebook)
+
+    def rebuilt(self, *, keep_outputs: bool = False) -> Rebuilt:
+        """The notebook that is graded."""
+        return rebuild(
+            parse(self.data()),
+            self.master,
+            add_missing=self.course.add_missing,
+            missing=self.course.missing_notification,
+            keep_outputs=keep_outputs,
+        )
+
+    def drop_links(self) -> list[str]:
+        """Remove from ``autograded/`` what nbgrader copied there through a link; the names of those files."""
+        dropped = []
+        for path in sorted(self.autograded.rglob("*")) if self.autograded.is_dir() else ():
+            name = path.relative_to(self.autograded)
+            if (self.submitted / name).is_symlink() and not path.is_dir():
+                path.unlink()
+                dropped.append(str(name))
+        return dropped
+
+    def run(self, built: Rebuilt) -> Ran:
+        """Run a rebuilt notebook in the sandbox of this grading run."""
+        secret, submission = self.course.secret(), digest(self.data())
+        exercises = self.exercises()
+        open_session = _sandbox(self.converter, self.course, exercises)
+        files = self._files()
+
+        def seed(exercise: str) -> bytes:
+            return hidden_seed(secret, self.student, exercise, submission)
+
+        return run(built, lambda: open_session(files), exercises.get, seed, uses_check=self.master.uses_check)
+
+    def exercises(self) -> dict[str, Exercise]:
+        """The exercises that the assignment poses, in any of its notebooks."""
+        names = [cell.exercise for nb in self.row.notebooks.values() for cell in nb.master.graded if cell.exercise]
+        return {name: found for name in names if (found := self.course.exercise(name)) is not None}
+
+    def _files(self) -> dict[str, bytes]:
+        bounds = self.course.bounds
+        found = {}
+        for path in sorted(self.autograded.rglob("*")):
+            if path.is_file() and not path.is_symlink() and path.suffix != ".ipynb":
+                found[path.relative_to(self.autograded).as_posix()] = read_file(path, bounds.file)
+        return found
+
+    def keep(self, files: Mapping[str, bytes]) -> None:
+        """Write what the learner's code wrote into ``autograded/``, never over the instructor's files."""
+        instructors = self.course.instructor_files(self.assignment)
+        for name, data in files.items():
+            if name not in instructors:
+                path = self.autograded / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.unlink(missing_ok=True)
+                path.write_bytes(data)
+
+
+_sandboxes: weakref.WeakKeyDictionary[Any, OpenSession] = weakref.WeakKeyDictionary()
+
+
+def _sandbox(converter: Any, course: Course, exercises: Mapping[str, Exercise]) -> OpenSession:
+    """One sandbox for each of nbgrader's runs, started with its first notebook and closed with its converter."""
+    if converter not in _sandboxes:
+        stack = contextlib.ExitStack()
+        policy = needs(exercises.values(), course.packages)
+        _sandboxes[converter] = stack.enter_context(opened(policy, course.level, course.timeout))
+        weakref.finalize(converter, stack.close)
+    return _sandboxes[converter]
