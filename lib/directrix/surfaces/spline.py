@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from directrix import checks
-from directrix.basis import cox_de_boor
+from directrix.basis import clamped, cox_de_boor, on_knots
 from directrix.checks import Array
 from directrix.curves.rational import lift
 from directrix.knots import Knots, KnotVector, knot_vector
 from directrix.surfaces.surface import Orders, Surface
-from directrix.surfaces.tensor import on_grid, planes
+from directrix.surfaces.tensor import on_grid, planes, window
 from directrix.transform import Transform
 
 if TYPE_CHECKING:
@@ -104,6 +104,13 @@ class SplinePatch(Surface):
             found[nu, nw] = np.moveaxis(value, -1, 0)
         return found
 
+    def _part(self, corners: tuple[float, float, float, float]) -> tuple[Array, KnotVector, KnotVector]:
+        """Coefficients and knots of a part; a part that begins after its end is run backwards."""
+        u0, u1, w0, w1 = corners
+        blended, knots_u = spline_part(self.knot_vector_u, self._blended, u0, u1)
+        turned, knots_w = spline_part(self.knot_vector_w, blended.swapaxes(0, 1), w0, w1)
+        return turned.swapaxes(0, 1), knots_u, knots_w
+
     def _derivative(self, u: Array, w: Array, nu: int, nw: int) -> Array:
         return self._jet(u, w, ((nu, nw),))[0]
 
@@ -162,6 +169,11 @@ class BSplinePatch(SplinePatch):
     def with_net(self, net: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None) -> BSplinePatch:
         """The same orders with another net, on the same knots or on others."""
         return _made(type(self), self, control_net=net, knot_vector_u=knots_u, knot_vector_w=knots_w)
+
+    def patch(self, u0: float, u1: float, w0: float, w1: float) -> BSplinePatch:
+        """The part from (u0, w0) to (u1, w1) as a B-spline patch of its own, with clamped knots."""
+        net, knots_u, knots_w = self._part(window(u0, u1, w0, w1))
+        return self.with_net(net, knots_u, knots_w)
 
     def moved(self, transform: Transform) -> BSplinePatch:
         """The B-spline patch of the moved net."""
@@ -234,6 +246,11 @@ class NurbsPatch(SplinePatch):
         """The same orders with another net and weights, on the same knots or on others."""
         return _made(type(self), self, control_net=net, weights=weights, knot_vector_u=knots_u, knot_vector_w=knots_w)
 
+    def patch(self, u0: float, u1: float, w0: float, w1: float) -> NurbsPatch:
+        """The part from (u0, w0) to (u1, w1) as a NURBS patch of its own, with clamped knots."""
+        lifted, knots_u, knots_w = self._part(window(u0, u1, w0, w1))
+        return self.with_net(lifted[..., :3] / lifted[..., 3:], lifted[..., 3], knots_u, knots_w)
+
     def moved(self, transform: Transform) -> NurbsPatch:
         """The patch of the moved net with the same weights, which is the moved patch for every affine map."""
         return self.with_net(transform.points(self.control_net), self.weights)
@@ -288,6 +305,18 @@ def _swapped(like: SplinePatch, **changed: Array) -> Surface:
     return _made(
         type(like), like, k=like.l, l=like.k, knot_vector_u=like.knot_vector_w, knot_vector_w=like.knot_vector_u, **changed
     )
+
+
+def spline_part(knots: KnotVector, points: Array, u0: float, u1: float) -> tuple[Array, KnotVector]:
+    """Control points along axis 0, repeated ones included, and clamped knots of the part [u0, u1]; backwards if u0 > u1."""
+    start, end = (float(t) for t in knots.stretch(np.sort([u0, u1])))
+    values = clamped(knots.values, knots.order, start, end)
+    same = np.array_equal(values, knots.values)
+    part = points if same else on_knots(knots.values, knots.order, points, values)
+    if u0 > u1:
+        part, values = part[::-1], start + end - values[::-1]
+        values[: knots.order], values[-knots.order :] = start, end
+    return part, KnotVector(values, knots.order)
 
 
 def _speed(knots: KnotVector) -> float:
