@@ -17,6 +17,7 @@ from typing import IO, Literal
 from autograder.errors import IsolationError, SandboxError
 from autograder.sandbox.launcher import launch
 from autograder.sandbox.policy import Limits, Policy
+from autograder.sandbox.process import Process
 from autograder.sandbox.session import Session
 
 Level = Literal["A", "A-"]
@@ -57,7 +58,7 @@ class Sandbox:
         self.policy = policy or Policy()
         self.level = level
         self._bubblewrap = bubblewrap
-        self._errors: IO[bytes] = tempfile.TemporaryFile()
+        self._errors: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 (closed by close)
         self._sessions: set[Session] = set()
         self._lock = threading.Lock()
         self._control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -188,12 +189,12 @@ class Sandbox:
             with job, reporter:
                 socket.send_fds(self._control, [json.dumps(limits.for_child()).encode()], [job.fileno(), reporter.fileno()])
             report.settimeout(START_SECONDS)
-            said, pidfds, *_ = socket.recv_fds(report, 4096, 1)
+            said, pidfds, *_ = socket.recv_fds(report, 4096, 1, socket.MSG_CMSG_CLOEXEC)
             if not pidfds:
                 raise SandboxError(
                     f"no process for a notebook: {json.loads(said or b'{}').get('refused', 'the zygote has died')}"
                 )
-            return Session(link, report, pidfds[0], limits)
+            return Session(Process(link, report, pidfds[0], limits, self.level), limits)
         except BaseException as error:
             for thing in (link, report):
                 thing.close()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 
 CELL, CALL, FILES, START = "this cell", "this call of your function", "saving the files", "starting"
+REST = "What comes after it could not be run"
 SIGNALS: dict[int, str] = {
     signal.SIGSEGV: "a crash in compiled code (segmentation fault)",
     signal.SIGABRT: "a crash in compiled code (abort)",
@@ -12,7 +13,7 @@ SIGNALS: dict[int, str] = {
     signal.SIGFPE: "a crash in compiled code (arithmetic)",
     signal.SIGILL: "a crash in compiled code (illegal instruction)",
     signal.SIGSYS: "a system call that is not allowed",
-    signal.SIGKILL: "the system, perhaps for want of memory",
+    signal.SIGKILL: "it was killed",
 }
 
 
@@ -23,7 +24,7 @@ def cpu_time(what: str, seconds: float) -> str:
 
 def wall_time(what: str, seconds: float) -> str:
     """Time by the clock is used up."""
-    return f"{what} was stopped after {seconds:g} s by the clock, though it computed little. Is it waiting for something?"
+    return f"{what} was stopped after {seconds:g} s by the clock. Is it waiting for something?"
 
 
 def notebook_time(seconds: float) -> str:
@@ -36,14 +37,16 @@ def memory(what: str, allowed: int) -> str:
     return f"{what} asked for more memory than the {allowed / 2**20:g} MiB it may have. Is an array far larger than meant?"
 
 
-def died(what: str, number: int, code: int | None) -> str:
-    """The process is gone."""
+def died(what: str, number: int, code: int) -> str:
+    """The process is gone: by a signal, or of its own will with an exit code."""
     if number:
-        how = SIGNALS.get(number, f"signal {number}")
-        return f"{what} ended the notebook's process: {how}. What comes after it could not be run"
-    if code is None:
-        return f"{what} ended the notebook's process. What comes after it could not be run"
-    return f"{what} ended the notebook's own process (os._exit or the like, code {code}). What comes after it could not be run"
+        return f"{what} ended the notebook's process: {SIGNALS.get(number, f'signal {number}')}. {REST}"
+    return f"{what} ended the notebook's own process (os._exit or the like, code {code}). {REST}"
+
+
+def closed(what: str) -> str:
+    """The process lives, but has closed its connection to the grader."""
+    return f"{what} closed a connection that it did not open (os.close or the like), and the notebook was stopped. {REST}"
 
 
 def protocol(error: Exception) -> str:

@@ -54,7 +54,7 @@ def text(value: Any, limit: int = 1 << 30) -> str:
 
 
 def _output(item: Any) -> tuple[Output, str]:
-    kind = item[0] if isinstance(item, tuple) and len(item) == 4 or isinstance(item, tuple) and len(item) == 3 else None
+    kind = item[0] if (isinstance(item, tuple) and len(item) == 4) or (isinstance(item, tuple) and len(item) == 3) else None
     if kind == "stream" and len(item) == 3 and item[1] in ("stdout", "stderr"):
         return {"output_type": "stream", "name": item[1], "text": text(item[2])}, ""
     if kind == "error" and len(item) == 4 and isinstance(item[3], tuple):
@@ -69,7 +69,7 @@ def _display(kind: str, item: Any) -> tuple[Output, str]:
     if not (isinstance(item, tuple) and len(item) == 4 and isinstance(item[1], tuple) and isinstance(item[2], tuple)):
         raise WireError("a display of no known form")
     _, pairs, sizes, display_id = item
-    output = {"output_type": kind, "data": _bundle(pairs), "metadata": _metadata(sizes)}
+    output: Output = {"output_type": kind, "data": _bundle(pairs), "metadata": _metadata(sizes)}
     if kind == "execute_result":
         output["execution_count"] = None  # the session fills it in
     return output, text(display_id, 200)

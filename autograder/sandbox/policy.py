@@ -60,7 +60,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class CellResult:
-    """What came of a cell: validated nbformat outputs, its number, how it ended, and a note for the learner where it did not end well."""
+    """What came of a cell: validated nbformat outputs, its number, how it ended, and a note for the learner if not well."""
 
     outputs: list[dict[str, Any]] = field(default_factory=list)
     execution_count: int | None = None

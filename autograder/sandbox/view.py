@@ -1,7 +1,7 @@
 """What there is to see inside a sandbox: the interpreter, the system's shared libraries, the allowed packages, the guest files.
 
-Everything lies at a place of its own (``/python``, ``/packages``, ``/guest``), so that no path of this machine shows through and
-no other file comes along. All of it is read-only.
+Everything lies at a place of its own (``/python``, ``/packages``, ``/guest``), so that no path of this machine shows
+through and no other file comes along. All of it is read-only.
 """
 
 from __future__ import annotations

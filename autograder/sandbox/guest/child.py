@@ -1,4 +1,4 @@
-"""One notebook's process: confines itself, then runs cells and calls functions for the trusted side, in order, until it is ended.
+"""One notebook's process: confines itself, then runs cells and calls functions for the trusted side until it is ended.
 
 Code of learners shares this process, so nothing it answers is believed on the other side.
 """

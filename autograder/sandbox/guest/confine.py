@@ -1,8 +1,8 @@
 """The last walls, put up by a child around itself before it reads a line of anybody's code.
 
-Level A: the child is pid 1 of its own user, pid, mount and ipc namespaces, has its own tmpfs and /proc, no capabilities, Landlock,
-resource limits and the system call filter. Level A-: the same without namespaces of its own (the zygote's are shared), one
-fresh folder that Landlock alone makes its own. Whatever fails raises: there is no weaker way on.
+Level A: the child is pid 1 of its own user, pid, mount and ipc namespaces, has its own tmpfs and /proc, no capabilities,
+Landlock, resource limits and the system call filter. Level A-: the same without namespaces of its own (the zygote's are
+shared), one fresh folder that Landlock alone makes its own. Whatever fails raises: there is no weaker way on.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ PROCESS_ID_MAX = 400  # the least a kernel takes is about 300; RLIMIT_NPROC is t
 def confine(level: str, limits: dict[str, int | float], scratch: str, programme: bytes) -> dict[str, int | str]:
     """Put up all walls; afterwards the process is in its own working folder. Returns what was found on the way."""
     facts: dict[str, int | str] = {"level": level}
+    os.setsid()  # kill(0) reaches a whole process group, also across pid namespaces: be a group of one
     if level == "A":
         _become_somebody()
         facts["proc"] = _own_mounts(limits)

@@ -1,9 +1,10 @@
 """The system call filter of a child: an allow-list, assembled here as BPF so that no library is needed for it.
 
-Allowed are the calls by which a single process computes and works with files it may open anyway. Everything else fails with
-EPERM: starting processes and programs (fork, vfork, clone without CLONE_THREAD, execve), memory that no limit counts
-(memfd_create, System V shared memory, io_uring), other processes (ptrace, process_vm_readv, pidfd_*), sockets (only
-``socketpair`` of streams, which asyncio needs), namespaces, mounts, keys, bpf, userfaultfd, device nodes, ownership, priorities.
+Allowed are the calls by which a single process computes and works with files it may open anyway. Everything else fails
+with EPERM: starting processes and programs (fork, vfork, clone without CLONE_THREAD, execve), memory that no limit counts
+(memfd_create, System V shared memory, io_uring), other processes (ptrace, process_vm_readv, pidfd_*), sockets (but for
+``socketpair`` of streams, which asyncio needs), namespaces, mounts, keys, bpf, userfaultfd, device nodes, ownership and
+priorities.
 ``clone3`` and calls newer than this table give ENOSYS, for which the C library has a second way. Calls of another
 architecture (32-bit and x32) kill the process.
 
@@ -109,8 +110,9 @@ def _ranges(column: int) -> list[tuple[int, Code]]:
     """(first number, what to do from there on), sorted; neighbours with the same answer are one range."""
     refuse: Code = [(RETURN, 0, 0, ERRNO | errno.EPERM)]
     answers = dict.fromkeys(range(NEWEST + 1), refuse)
-    answers |= dict.fromkeys(numbers(ALLOWED, column).values(), [(RETURN, 0, 0, ALLOW)])
-    answers |= dict.fromkeys(numbers(XATTR, column).values(), [(RETURN, 0, 0, ERRNO | errno.ENOTSUP)])
+    for table, answer in ((ALLOWED, ALLOW), (XATTR, ERRNO | errno.ENOTSUP)):
+        for number in numbers(table, column).values():
+            answers[number] = [(RETURN, 0, 0, answer)]
     conditions = {
         "clone": _masked(
             0, CLONE_VM | CLONE_SIGHAND | CLONE_THREAD | CLONE_NAMESPACES | CLONE_PTRACE | CLONE_VFORK,

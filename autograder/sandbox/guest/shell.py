@@ -29,6 +29,7 @@ from autograder.sandbox.guest.answers import TimeLimitExceeded
 JSON_TYPES = ("application/json", "+json")
 MORE = "\n... the output of this cell is cut here: it shows more than {} kB.\n"
 MANY = "\n... the output of this cell is cut here: it shows more than {} things.\n"
+ERRORS = 2_000_000  # characters of tracebacks that one cell may show
 Output = list[Any]
 
 
@@ -45,6 +46,7 @@ class Recorder:
         self.updates: dict[str, Output] = {}
         self.by_id: dict[str, list[Output]] = {}
         self.size, self.count, self.left = size, count, size
+        self.errors_left = ERRORS
         self.clear_at_next = False
         self.full = False
 
@@ -60,29 +62,31 @@ class Recorder:
 
     def display(self, kind: str, data: dict[str, Any], metadata: dict[str, Any] | None, display_id: Any = None) -> None:
         """A rich display, or a cell's result (``kind`` execute_result)."""
-        if self.silent or self.full:
+        bundle = _bundle(data)
+        if self.silent or self.full or not bundle or not self._fits(_length(bundle)):
             return
-        bundle = self._bundle(data)
         output: Output = [kind, bundle, _sizes(metadata), "" if display_id is None else str(display_id)[:200]]
-        if bundle and self.add(output) and output[3]:
+        if self.add(output) and output[3]:
             self.by_id.setdefault(output[3], []).append(output)
 
     def update(self, data: dict[str, Any], metadata: dict[str, Any] | None, display_id: Any) -> None:
         """Replace an earlier display, in this cell or (told to the trusted side) in one before."""
-        if self.silent or self.full:
+        name, bundle, sizes = str(display_id)[:200], _bundle(data), _sizes(metadata)
+        here = self.by_id.get(name, [])
+        before = _length(self.updates[name][1]) if name in self.updates else -100
+        growth = sum(_length(bundle) - _length(output[1]) for output in here) + _length(bundle) - before
+        if self.silent or self.full or not self._fits(growth):
             return
-        name = str(display_id)[:200]
-        bundle, sizes = self._bundle(data, again=True), _sizes(metadata)
-        for output in self.by_id.get(name, []):
+        for output in here:
             output[1:3] = [bundle, sizes]
-        if name in self.updates or len(self.updates) < self.count:
-            self.updates[name] = ["update", bundle, sizes, name]
+        self.updates[name] = ["update", bundle, sizes, name]
 
     def error(self, name: str, value: str, traceback: list[str]) -> None:
         """An exception with its traceback, shown even when the cell has shown too much."""
-        if not self.silent:
-            lines = [line[:20_000] for line in traceback[:200]]
-            self.outputs.append(["error", name[:200], value[:20_000], lines])
+        lines = [line[:10_000] for line in traceback[:100]]
+        self.errors_left -= sum(map(len, lines)) + 2000
+        if not self.silent and self.errors_left > 0:
+            self.outputs.append(["error", name[:200], value[:2000], lines])
 
     def clear(self, wait: bool) -> None:
         """Jupyter's clear_output."""
@@ -114,17 +118,13 @@ class Recorder:
         text, self.left, self.full = text[: self.left], 0, True
         return text + MORE.format(self.size // 1000)
 
-    def _bundle(self, data: dict[str, Any], again: bool = False) -> list[tuple[str, str]]:
-        bundle = [
-            (str(mime)[:100], text) for mime, text in ((mime, _as_text(mime, value)) for mime, value in data.items()) if text
-        ]
-        size = sum(len(text) for _, text in bundle)
-        if size > (self.size if again else self.left):
-            if not again:
-                self._stop(MORE.format(self.size // 1000))
-            return []
-        self.left -= 0 if again else size
-        return bundle
+    def _fits(self, size: int) -> bool:
+        """Take so much of what is left, or stop."""
+        if size > self.left:
+            self._stop(MORE.format(self.size // 1000))
+            return False
+        self.left -= size
+        return True
 
 
 class Printed(io.TextIOBase):
@@ -154,14 +154,16 @@ class Publisher(DisplayPublisher):
     def publish(self, data: Any, metadata: Any = None, *_: Any, transient: Any = None, update: bool = False, **__: Any) -> None:
         """Record one display or its update."""
         display_id = (transient or {}).get("display_id")
+        shell: Any = self.shell
         if update:
-            self.shell.recorder.update(data, metadata, display_id)
+            shell.recorder.update(data, metadata, display_id)
         else:
-            self.shell.recorder.display("display_data", data, metadata, display_id)
+            shell.recorder.display("display_data", data, metadata, display_id)
 
     def clear_output(self, wait: bool = False) -> None:
         """Record that the outputs so far are cleared."""
-        self.shell.recorder.clear(wait)
+        shell: Any = self.shell
+        shell.recorder.clear(wait)
 
 
 class Result(DisplayHook):
@@ -183,7 +185,8 @@ class Result(DisplayHook):
     def finish_displayhook(self) -> None:
         """Record it."""
         if self.shown:
-            self.shell.recorder.display("execute_result", *self.shown)
+            shell: Any = self.shell
+            shell.recorder.display("execute_result", *self.shown)
         self.shown = None
 
 
@@ -198,7 +201,7 @@ class Shell(InteractiveShell):
         self.recorder = Recorder()
         self.number = 0
         self.ran_into: type[BaseException] | None = None
-        super().__init__(**options)
+        super().__init__(**options)  # type: ignore[no-untyped-call]
 
     @classmethod
     def for_notebooks(cls) -> Shell:
@@ -222,8 +225,8 @@ class Shell(InteractiveShell):
 
     def init_hooks(self) -> None:
         """``name?`` shows its help below the cell."""
-        super().init_hooks()
-        self.set_hook("show_in_pager", page.as_hook(self._page), 99)
+        super().init_hooks()  # type: ignore[no-untyped-call]
+        self.set_hook("show_in_pager", page.as_hook(self._page), 99)  # type: ignore[no-untyped-call]
 
     def init_virtualenv(self) -> None:
         """There is none."""
@@ -251,7 +254,7 @@ class Shell(InteractiveShell):
         self.recorder.begin(size, count)
         self.ran_into = None
         self.number = self.execution_count
-        result = self.run_cell(source, store_history=True)
+        result = self.run_cell(source, store_history=True)  # type: ignore[no-untyped-call]
         self._printed_by_c()
         error = result.error_before_exec or result.error_in_exec
         if isinstance(error, TimeLimitExceeded):
@@ -296,6 +299,15 @@ class Shell(InteractiveShell):
 
 def _no_input(prompt: object = "") -> str:
     raise StdinNotImplementedError("input() has nobody to ask while the grader runs the notebook; use a variable instead")
+
+
+def _bundle(data: dict[str, Any]) -> list[tuple[str, str]]:
+    texts = ((str(mime)[:100], _as_text(mime, value)) for mime, value in data.items())
+    return [(mime, text) for mime, text in texts if text is not None]
+
+
+def _length(bundle: list[tuple[str, str]]) -> int:
+    return sum(len(text) for _, text in bundle)
 
 
 def _as_text(mime: Any, value: Any) -> str | None:

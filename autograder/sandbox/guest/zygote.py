@@ -59,7 +59,7 @@ class Zygote:
                 if descriptor != self.control.fileno():
                     self.report(descriptor)
                     continue
-                message, descriptors, *_ = socket.recv_fds(self.control, 65536, 2)
+                message, descriptors, *_ = socket.recv_fds(self.control, 65536, 2, socket.MSG_CMSG_CLOEXEC)
                 if not message:
                     return
                 self.start(json.loads(message), *descriptors)

@@ -1,0 +1,221 @@
+"""A notebook's process seen from outside: questions and answers under deadlines, its measured time, its end."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import secrets
+import select
+import signal
+import socket
+import time
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from autograder.errors import SandboxError
+from autograder.sandbox import messages, wire
+from autograder.sandbox.policy import Ended, Limits
+from autograder.sandbox.wire import WireError
+
+CORES = os.cpu_count() or 1
+SOFT = 1.0  # seconds between the child's own interruption, which can tell the line, and the end from outside
+CLOSING = 1.0  # seconds that a process may take between closing its socket and being gone
+RESULT_DEPTH = wire.DEPTH + 2
+
+
+@dataclass(frozen=True)
+class Action:
+    """What one exchange may take: CPU seconds, seconds by the clock, bytes and values of the answer. ``what`` names it."""
+
+    what: str
+    cpu: float
+    wall: float
+    most: int
+    items: int = wire.ITEMS
+    raw: bool = False
+
+
+class Over(Exception):
+    """The process is gone; ``ended`` says why."""
+
+    def __init__(self, ended: Ended) -> None:
+        super().__init__(ended.message)
+        self.ended = ended
+
+
+class Process:
+    """One child of the zygote. It is killed, through its pidfd, when it outstays a limit or breaks the protocol."""
+
+    def __init__(self, link: socket.socket, report: socket.socket, pidfd: int, limits: Limits, level: str) -> None:
+        self.limits, self.level = limits, level
+        self.max_rss = 0
+        self._link, self._report, self._pidfd = link, report, pidfd
+        self._link.setblocking(False)
+        self._cpu = 0.0
+        self._clock = _cpu_clock(pidfd)
+        self._poll = select.poll()
+        self._poll.register(pidfd, select.POLLIN)
+
+    @property
+    def cpu(self) -> float:
+        """CPU seconds used so far, by all its threads."""
+        if self._clock is not None:
+            try:
+                self._cpu = time.clock_gettime(self._clock)
+            except OSError:  # it has been reaped; the zygote's report says the rest
+                self._clock = None
+        return self._cpu
+
+    def first(self, action: Action) -> tuple[bool, Any]:
+        """What the child says of itself before it is asked anything: whether it is confined, and how or why not."""
+        kind, _, body = self._frame(action)
+        return kind == wire.READY, wire.decode(body)
+
+    def ask(self, kind: int, request: tuple[Any, ...], action: Action) -> Any:
+        """Send one request and return the decoded answer to it.
+
+        Raises
+        ------
+        Over
+            If a limit was reached or the process ended.
+        WireError
+            If the answer breaks the protocol.
+        SandboxError
+            If the request cannot be sent, or the sandbox itself is gone.
+        """
+        try:
+            body = wire.encode(request, depth=RESULT_DEPTH)
+        except WireError as error:
+            raise SandboxError(f"{error} cannot be sent to a notebook") from None
+        exchange = secrets.token_bytes(16)
+        self._send(wire.frame(kind, exchange, body), action)
+        answered, name, answer = self._frame(action)
+        if answered != wire.DONE or name != exchange:
+            raise WireError("an answer to another question")
+        return wire.decode(answer, depth=RESULT_DEPTH, items=action.items, raw=action.raw)
+
+    def kill(self) -> dict[str, Any] | None:
+        """End it, and return the zygote's report (None if the zygote is gone too)."""
+        with contextlib.suppress(OSError):  # it has ended already
+            signal.pidfd_send_signal(self._pidfd, signal.SIGKILL)
+        self._report.settimeout(10.0)
+        try:
+            end: dict[str, Any] = json.loads(self._report.recv(4096))
+        except (OSError, ValueError):
+            return None
+        self._cpu, self._clock = max(self._cpu, float(end["cpu"])), None
+        self.max_rss = int(end["max_rss"])
+        return end
+
+    def close(self) -> None:
+        """Let go of its sockets. It must have been killed."""
+        if self._pidfd >= 0:
+            self._link.close()
+            self._report.close()
+            os.close(self._pidfd)
+            self._pidfd = -1
+
+    def _send(self, data: bytes, action: Action) -> None:
+        watch = _Watch(self.cpu + action.cpu, time.monotonic() + action.wall)
+        view = memoryview(data)
+        self._poll.register(self._link, select.POLLOUT)
+        while view:
+            self._within(watch, action)
+            try:
+                view = view[self._link.send(view) :]
+            except BlockingIOError:
+                self._poll.poll(watch.pause(self.cpu) * 1000)
+            except OSError:
+                self._gone(action)
+
+    def _frame(self, action: Action) -> tuple[int, bytes, bytes]:
+        """One whole frame: kind, exchange, body."""
+        watch = _Watch(self.cpu + action.cpu, time.monotonic() + action.wall)
+        self._poll.register(self._link, select.POLLIN)
+        kind, length, exchange = wire.header(self._read(wire.HEADER.size, watch, action), action.most)
+        return kind, exchange, self._read(length, watch, action)
+
+    def _read(self, count: int, watch: _Watch, action: Action) -> bytes:
+        """Exactly ``count`` bytes; memory grows only with what has arrived."""
+        data = bytearray()
+        while len(data) < count:
+            self._within(watch, action)
+            try:
+                part = self._link.recv(min(count - len(data), 2**20))
+            except BlockingIOError:
+                if any(descriptor == self._pidfd for descriptor, _ in self._poll.poll(watch.pause(self.cpu) * 1000)):
+                    self._drain_or_gone(action)
+                continue
+            except OSError:
+                part = b""
+            if not part:
+                self._gone(action)
+            data += part
+            if len(part) < 512 and len(data) < count:
+                time.sleep(0.001)  # a child that drips bytes must not keep us busy
+        return bytes(data)
+
+    def _drain_or_gone(self, action: Action) -> None:
+        """The process has ended: what it sent before may still be waiting."""
+        poll = select.poll()
+        poll.register(self._link, select.POLLIN)
+        if not poll.poll(0):
+            self._gone(action)
+
+    def _within(self, watch: _Watch, action: Action) -> None:
+        used = self.cpu
+        limit = watch.over(used)
+        if limit:
+            self.kill()
+            raise Over(self.out_of_time(limit, action))
+
+    def out_of_time(self, limit: Literal["cpu", "wall"], action: Action) -> Ended:
+        """Why an action was stopped, in words."""
+        if self._cpu >= self.limits.notebook_cpu:
+            return Ended("timeout", messages.notebook_time(self.limits.notebook_cpu), "notebook")
+        if limit == "cpu":
+            return Ended("timeout", messages.cpu_time(action.what, action.cpu), "cpu")
+        return Ended("timeout", messages.wall_time(action.what, action.wall), "wall")
+
+    def _gone(self, action: Action) -> None:
+        """The process has ended or has closed its socket: find out how."""
+        poll = select.poll()
+        poll.register(self._pidfd, select.POLLIN)
+        by_itself = bool(poll.poll(CLOSING * 1000))
+        end = self.kill()
+        if end is None:
+            raise SandboxError("the zygote has died, and the notebook's process with it")
+        status = int(end["status"])
+        number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
+        if not by_itself:
+            raise Over(Ended("died", messages.closed(action.what)))
+        if number == signal.SIGKILL and self._cpu >= self.limits.notebook_cpu:  # the kernel's own clock was quicker than ours
+            raise Over(self.out_of_time("cpu", action))
+        if number == signal.SIGKILL and self.level == "A":  # nobody inside can do that to the first process of a namespace
+            raise SandboxError("the notebook's process was killed from outside, perhaps because the machine ran out of memory")
+        raise Over(Ended("died", messages.died(action.what, number, os.WEXITSTATUS(status))))
+
+
+class _Watch:
+    """The two deadlines of one exchange: CPU seconds of the child, and the clock."""
+
+    def __init__(self, cpu: float, wall: float) -> None:
+        self.cpu, self.wall = cpu + SOFT, wall + SOFT
+
+    def over(self, used: float) -> Literal["cpu", "wall"] | None:
+        if used > self.cpu:
+            return "cpu"
+        return "wall" if time.monotonic() > self.wall else None
+
+    def pause(self, used: float) -> float:
+        """How long nothing can be over: all cores together cannot use up the CPU time any sooner."""
+        return max(0.002, min(self.wall - time.monotonic(), (self.cpu - used) / CORES))
+
+
+def _cpu_clock(pidfd: int) -> int | None:
+    """The CPU clock of the process behind a pidfd, as clock_gettime takes it (linux/posix-timers.h: ~pid << 3 | 2)."""
+    with open(f"/proc/self/fdinfo/{pidfd}", encoding="ascii") as file:
+        fields = dict(line.split(":\t") for line in file.read().splitlines() if ":\t" in line)
+    pid = int(fields.get("Pid", "-1"))
+    return (~pid << 3) | 2 if pid > 0 else None
