@@ -18,6 +18,7 @@ from directrix.plot.sampling import Array, bounds, deviation, grid_normals, size
 from directrix.plot.scene import VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
 
 HEIGHT = 430
+ROUNDING = 1e-9  # relative deviations up to this are none
 LINES = 8  # parameter lines each way, apart from the edges: every eighth of the range
 FAR = 8.0  # a surface that runs further out than this many sizes of the reference leaves the picture
 FARTHER = 1.14  # two narrow scenes want their cameras a little further away
@@ -91,7 +92,7 @@ def _two_scenes(
     u, w = axes
     box = _box(right, left)
     top = min(float(np.nanmax(off)), FAR) if np.isfinite(off).any() else 0.0
-    limits = (0.0, top if top > 0 else 1.0)
+    limits = (0.0, top if top > ROUNDING else 1.0)  # or rounding would be painted as a deviation
     bar = {
         "title": {"text": "off by<br>÷ size", "font": {"size": 12}}, "thickness": 12, "len": 0.78, "x": 0.935,
         "xanchor": "left", "y": 0.5, "tickfont": {"size": 11}, "nticks": 6, "outlinewidth": 0, "tickformat": ".3~g",
@@ -235,7 +236,7 @@ def between(axes: list[Array], points: Array, place: Array) -> Array:
 def _worst(axes: list[Array], off: Array, worst: Sequence[float] | None) -> Array | None:
     if worst is not None and len(worst) == len(axes):
         return np.asarray(worst, dtype=float)
-    if not np.isfinite(off).any() or np.nanmax(off) <= 1e-9:
+    if not np.isfinite(off).any() or np.nanmax(off) <= ROUNDING:
         return None
     index = np.unravel_index(int(np.nanargmax(off)), off.shape)
     return np.array([axis[i] for axis, i in zip(axes, index, strict=True)])
