@@ -17,11 +17,13 @@ from autograder.comparison.gates import Gated, through_gates
 from autograder.comparison.target import Target, targets
 from autograder.diagnosis.explain import Explanation, Parts, pair_written, spoken_answer, worst_finding, worst_index
 from autograder.diagnosis.figure import figure_of
-from autograder.diagnosis.ladder import Finding, Recognised, find, overall, recognise
+from autograder.diagnosis.ladder import DEAR, Finding, Recognised, climb, find, overall, recognise, recognise_more, search
 from autograder.errors import ExerciseError, SandboxError
 from autograder.exercise import PUBLIC_SEED, Exercise
 from autograder.messages import say
 from autograder.result import GATES, Case, Outcome, Tier, Verdict
+
+CHEAP: tuple[Tier, ...] = ("identical", "relabelled", "other start", "close")  # these say more than a mistake nearly met
 
 
 def judge(
@@ -31,6 +33,7 @@ def judge(
     seed: int | str | bytes = PUBLIC_SEED,
     public_seed: int | str | bytes = PUBLIC_SEED,
     figure: bool = True,
+    search: bool = True,
 ) -> Verdict:
     """Judge one answer to one exercise.
 
@@ -46,6 +49,9 @@ def judge(
         that a learner gets to see.
     figure : bool
         Whether to sample both surfaces for a picture.
+    search : bool
+        Whether the dear rungs (same set, covered, part, more, moved set) may call the function again, within the budget of
+        :mod:`autograder.comparison.probing`: on the public data, and on hidden data only where such a rung earns credit.
 
     Returns
     -------
@@ -56,7 +62,7 @@ def judge(
         shown = targets(exercise, public_seed)
         hidden = targets(exercise, seed, hidden=True) if seed != public_seed else ()
         asked = ask_all([*shown, *hidden], call)
-        return _verdict(exercise, asked, call, figure=figure)
+        return _verdict(exercise, asked, call, figure=figure, search=search)
     except (ExerciseError, SandboxError) as failure:
         message = say("own.failure", message=" ".join(str(failure).split())[:500])
         return Verdict(
@@ -64,21 +70,22 @@ def judge(
         )  # fmt: skip
 
 
-def _verdict(exercise: Exercise, asked: Sequence[Asked], call: Callable[..., Any], *, figure: bool) -> Verdict:
+def _verdict(exercise: Exercise, asked: Sequence[Asked], call: Callable[..., Any], *, figure: bool, search: bool) -> Verdict:
     gated = through_gates(asked)
     findings = [find(one) for one in gated]
     shown = [f for f in findings if not f.target.hidden]
     hidden = [f for f in findings if f.target.hidden]
     if not_written(gated):
         return _not_run(exercise, shown)
+    recognised = _diagnose(findings, call if search else None)
     rung = overall(findings)
-    recognised = recognise(findings) if rung != "identical" else None
     handled = not any(one.troubles for one in gated)
     tier: Tier = "mistake" if recognised is not None else "shape" if rung == "identical" and not handled else rung
     fraction = _fraction(exercise, findings, rung, recognised, handled=handled)
     parts = Explanation(shown, hidden, tier, recognised).parts()
     if fraction == 1.0 and tier != "identical":
-        parts.insert(0, ("right", say("right.accepted")))
+        told = [("right", text) for part, text in parts if part in ("right", "wrong")]
+        parts = [*told, ("right", say("right.accepted"))]
     return Verdict(
         exercise=exercise.id,
         outcome=_outcome(fraction),
@@ -94,6 +101,36 @@ def _verdict(exercise: Exercise, asked: Sequence[Asked], call: Callable[..., Any
     )
 
 
+def _diagnose(findings: Sequence[Finding], call: Callable[..., Any] | None) -> Recognised | None:
+    """Cheap before dear: known mistakes, cheap rungs, mistakes that compose, then what calls the function again."""
+    if all(f.right for f in findings):
+        return None
+    recognised = recognise(findings)
+    if recognised is None or recognised.mistake.credit is None:
+        for finding in findings:
+            climb(finding)
+    if recognised is None and any(f.tier not in CHEAP for f in findings):
+        recognised = recognise_more(findings)
+    if recognised is None:
+        _search(findings, call)
+    return recognised
+
+
+def _search(findings: Sequence[Finding], call: Callable[..., Any] | None) -> None:
+    """The dear rungs: on public data, and on hidden data as far as marks hang on it."""
+    exercise = findings[0].target.exercise
+    for finding in findings:
+        if not finding.target.hidden:
+            search(finding, call)
+    shown = overall([f for f in findings if not f.target.hidden])
+    earns = shown in DEAR and exercise.tier_credit(shown) > 0
+    for finding in findings:
+        if finding.target.hidden and finding.tier == "different":
+            search(finding, call if earns else None)
+            if finding.tier == "different" and shown in DEAR and not earns:
+                finding.tier = shown  # worth as little; the public data say which it is
+
+
 def _fraction(
     exercise: Exercise, findings: Sequence[Finding], rung: Tier, recognised: Recognised | None, *, handled: bool
 ) -> float:
@@ -102,6 +139,10 @@ def _fraction(
     credit = min((0.0 if tier in GATES else exercise.tier_credit(tier) for tier in tiers), default=1.0)
     if recognised is not None and recognised.mistake.credit is not None:
         credit = recognised.mistake.credit
+    if recognised is not None and recognised.symmetry is not None:
+        credit *= exercise.tier_credit("relabelled")
+    if recognised is not None and recognised.second is not None:
+        credit *= recognised.second.credit or 0.0
     return float(credit if handled else credit * exercise.shape_credit)
 
 

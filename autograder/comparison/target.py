@@ -9,17 +9,18 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
 from autograder.comparison.answers import Answer, Array, Numbers, Raised, Several, Unreadable, raised, read
+from autograder.comparison.nearest import Evaluator
 from autograder.comparison.samples import Samples, read_only, samples
+from autograder.comparison.sets import Measured, measured
 from autograder.comparison.symmetry import Symmetry, symmetries
 from autograder.errors import ExerciseError
 from autograder.exercise import PUBLIC_SEED, Drawn, Exercise, Mistake, generator
 
-Evaluator: TypeAlias = Callable[[Array], Array]  # points (N, n) -> values (N, 3)
 ROUNDING = 64 * float(np.finfo(float).eps)
 SIZE_GRID = {1: 65, 2: 33, 3: 13}
 KEPT = 128  # exercises whose public targets are remembered
@@ -39,6 +40,7 @@ class Target:
         self._samples = samples(len(names), rng, keep_grid=exercise.kind == "mask") if names else None
         self._relabelled: dict[str, Array] = {}
         self._mistakes: dict[str, Answer] = {}
+        self._mistakes_relabelled: dict[tuple[str, str], Array | None] = {}
 
     @property
     def name(self) -> str:
@@ -90,10 +92,16 @@ class Target:
             self._mistakes[known.id] = self._at_samples(known.formula, f"mistake {known.id!r}")
         return self._mistakes[known.id]
 
-    def mistake_at(self, known: Mistake, points: Array) -> Array | None:
-        """What a known mistake answers at any parameters, None where it raises."""
-        found = self._map(known.formula, points, f"mistake {known.id!r}")
-        return None if isinstance(found, Raised) else found
+    def mistake_relabelled(self, known: Mistake, symmetry: Symmetry) -> Array | None:
+        """The values at the samples of that f for which f∘σ is the mistake; None where it raises."""
+        key = known.id, symmetry.name
+        if key not in self._mistakes_relabelled:
+            points = np.concatenate([s.inverse(self.samples.points) for s in self.symmetries])
+            found = self._map(known.formula, points, f"mistake {known.id!r}")
+            parts = [None] * len(self.symmetries) if isinstance(found, Raised) else np.split(found, len(self.symmetries))
+            for s, values in zip(self.symmetries, parts, strict=True):
+                self._mistakes_relabelled[known.id, s.name] = values
+        return self._mistakes_relabelled[key]
 
     def relabelled(self, symmetry: Symmetry) -> Array:
         """The values at the samples of that f for which f∘σ is the reference."""
@@ -119,6 +127,11 @@ class Target:
         values = np.concatenate([self.values, self.at(grid)])
         diagonal = float(np.linalg.norm(values.max(axis=0) - values.min(axis=0)))
         return diagonal or float(np.abs(values).max()) or 1.0
+
+    @cached_property
+    def measured(self) -> Measured:
+        """Its length, area or volume, and starting points for searches on it."""
+        return measured(self.at, len(self.names))
 
     @cached_property
     def allowed(self) -> float:

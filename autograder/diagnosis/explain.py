@@ -15,6 +15,7 @@ from autograder.comparison import values as value_rungs
 from autograder.comparison.answers import Answer, Numbers, Raised, Several, Word
 from autograder.comparison.gates import Gate, Trouble, error_gate
 from autograder.comparison.maps import Sampled, Shifted
+from autograder.comparison.sets import SetFinding
 from autograder.comparison.symmetry import Symmetry
 from autograder.comparison.target import Target
 from autograder.diagnosis.ladder import Finding, Recognised, common
@@ -185,9 +186,15 @@ class Explanation:
 
     def _mistake(self) -> Parts:
         assert self.recognised is not None
-        key = "wrong.mistake_close" if self.recognised.close else "wrong.mistake"
-        mistake = self.recognised.mistake
-        text = say(key, noun=self.noun, mistake=spoken(mistake.id))
+        found, mistake = self.recognised, self.recognised.mistake
+        facts = {"noun": self.noun, "mistake": spoken(mistake.id)}
+        if found.second is not None:
+            text = say("wrong.mistakes_two", **facts, second=spoken(found.second.id))
+            return [("wrong", text), ("look", mistake.hint), ("look", found.second.hint)]
+        if found.symmetry is not None:
+            text = say("wrong.mistake_relabelled", **facts, relabelled=relabelled(found.symmetry))
+        else:
+            text = say("wrong.mistake_close" if found.close else "wrong.mistake", **facts)
         return [("wrong", text), ("look", mistake.hint)]
 
     def _rung(self, where: Localised, maps: Sequence[Sampled], f: Sampled) -> tuple[list[str], str]:
@@ -202,7 +209,59 @@ class Explanation:
             if all(is_float32(m) for m in maps):
                 return [say("wrong.close_float32")], say("look.float32")
             return [say("wrong.close", amount=messages.amount(f.worst))], say("look.close")
+        if self.tier in ("same set", "covered", "part", "more"):
+            found = next((f.sets for f in self.wrong if f.tier == self.tier and f.sets is not None), None)
+            if found is not None:
+                texts, look = self._set(found, where)
+                return [*texts, *self._coordinates(maps)[0]], look
+        if self.tier == "moved":
+            return self._moved(maps)
         return self._different(where, maps, f)
+
+    def _set(self, found: SetFinding, where: Localised) -> tuple[list[str], str]:
+        """The same set of points, several times, a part of it, or more."""
+        names = self._names()
+        times = number(found.times, 3)
+        if self.tier == "same set":
+            key = "wrong.same_set_speed" if len(where.corners) == where.all_corners else "wrong.same_set"
+            return [say(key, noun=self.noun, names=listing(names))], say("look.same_set")
+        if self.tier == "covered":
+            if found.ratio < 1.5:
+                return [say("wrong.collapsed", percent=messages.percent(found.collapsed))], say("look.collapsed")
+            return [say("wrong.covered", noun=self.noun, times=times)], say("look.covered")
+        if self.tier == "more":
+            return [say("wrong.more", noun=self.noun, times=number(found.ratio, 3))], self._reach()
+        if found.ratio < 1e-6:
+            what = say("collapsed.curve" if len(names) == 2 else "collapsed.less")
+            return [say("wrong.part_collapsed", noun=self.noun, what=what)], self._look_part(where)
+        if found.ratio > 0.98:
+            return [say("wrong.part_folded", noun=self.noun)], say("look.covered")
+        return [say("wrong.part", noun=self.noun, percent=messages.percent(found.ratio))], self._reach()
+
+    def _reach(self) -> str:
+        return say("look.part", place=place(self._names(), [1.0] * len(self._names())))
+
+    def _look_part(self, where: Localised) -> str:
+        unused = [self._names()[i] for i in where.unused]
+        return say("look.unused", name=listing(unused)) if unused else say("look.corners")
+
+    def _moved(self, maps: Sequence[Sampled]) -> tuple[list[str], str]:
+        """The right shape in another place, and how it got there."""
+        finding = next(
+            f for f in [self.worst, *self.wrong] if f.tier == "moved" and (f.moved is not None or f.motion is not None)
+        )
+        start = say("look.moved", noun=self.noun, place=place(self._names(), [0.0] * len(self._names())))
+        if finding.moved is None:
+            return [say("wrong.moved.set")], start
+        motion, symmetry = finding.moved.motion, finding.moved.symmetry
+        kind = motion.kind(finding.target.size)
+        facts = {"shift": written(motion.shift, 4), "factor": number(motion.scale, 6), "angle": number(motion.angle, 4)}
+        texts = [say(f"wrong.moved.{kind}", **facts, axis=written(np.round(motion.axis, 6), 4))]
+        if symmetry.name != "id":
+            texts.append(say("wrong.moved.relabelled", relabelled=relabelled(symmetry)))
+        look = {"scale": say("look.scale"), "similarity": say("look.scale"), "reflection": say("look.mirrored")}
+        told, better = self._coordinates(maps) if kind not in ("scale", "translation") else ([], None)
+        return [*texts, *told], better or look.get(kind, start)
 
     def _relabelled(self) -> tuple[list[str], str]:
         shared = common(self.wrong)
@@ -239,17 +298,9 @@ class Explanation:
                 )
             text = " ".join(say("fact.unused", name=name) for name in unused)
             return [say("wrong.different", noun=self.noun, amount=away), text], say("look.unused", name=listing(unused))
-        fact = coordinate_fact(maps)
-        if fact is not None:
-            facts = {k: number(v, 6) if isinstance(v, float) else v for k, v in fact.facts.items()}
-            look = (
-                say("look.scale")
-                if "factor" in facts
-                else say("look.coordinate", names=facts.get("name") or facts.get("yours", ""))
-            )
-            if fact.key == "fact.coordinate_sign":
-                look = say("look.mirrored")
-            return [say(fact.key, **facts)], look
+        told, better = self._coordinates(maps)
+        if better is not None:
+            return told, better
         wrong = [AXES[i] for i, fine in enumerate(where.coordinates[:3]) if not fine]
         if 0 < len(wrong) < len(where.coordinates):
             key = "fact.coordinates_wrong" if len(wrong) > 1 else "fact.coordinate_wrong"
@@ -264,6 +315,20 @@ class Explanation:
             look = say("look.edge", name=names[axis], start=end, end=1 - end)
             return [say("wrong.different", noun=self.noun, amount=away)], look
         return [say("wrong.different", noun=self.noun, amount=away)], say("look.worst")
+
+    def _coordinates(self, maps: Sequence[Sampled]) -> tuple[list[str], str | None]:
+        """One rule for a coordinate that explains all of it, and what to look at then."""
+        fact = coordinate_fact(maps)
+        if fact is None:
+            return [], None
+        facts = {k: number(v, 6) if isinstance(v, float) else v for k, v in fact.facts.items()}
+        if fact.key == "fact.coordinate_sign":
+            look = say("look.mirrored")
+        elif "factor" in facts:
+            look = say("look.scale")
+        else:
+            look = say("look.coordinate", names=facts.get("name") or facts.get("yours", ""))
+        return [say(fact.key, **facts)], look
 
     def _mask(self, f: Sampled) -> tuple[list[str], str]:
         bad = f.deviations > f.target.allowed

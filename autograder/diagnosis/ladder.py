@@ -1,11 +1,13 @@
 """From answers that passed the gates to findings: the rung of the ladder and the known mistake.
 
-A finding is made per data set; :func:`recognise` looks at all of them together, since a mistake must explain every data set.
+A finding is made per data set; a mistake must explain every data set. The cheap rungs use values that are at hand; the dear
+ones (:func:`search`) call the learner's function again, within a budget.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,6 +17,10 @@ from autograder.comparison import values as value_rungs
 from autograder.comparison.answers import Answer, Array, Numbers, Raised, Several, Word
 from autograder.comparison.gates import Gated
 from autograder.comparison.maps import CLOSE, Sampled, Shifted, agree, other_start, relabellings
+from autograder.comparison.motion import Motion, Moved, moved
+from autograder.comparison.moved_set import moved_set
+from autograder.comparison.probing import Exhausted, Probe
+from autograder.comparison.sets import SetFinding, compare_sets, measured
 from autograder.comparison.symmetry import Symmetry
 from autograder.comparison.target import Target
 from autograder.comparison.values import Pattern
@@ -22,6 +28,7 @@ from autograder.exercise import Mistake
 from autograder.result import GATES, LADDER, Tier
 
 NEARER = 10  # a mistake is met "closely" only where the right answer is at least so many times farther away
+DEAR: tuple[Tier, ...] = ("same set", "covered", "part", "more", "moved")
 
 
 @dataclass(eq=False)
@@ -32,6 +39,9 @@ class Finding:
     tier: Tier
     symmetries: tuple[Symmetry, ...] = ()
     shifted: Shifted | None = None
+    sets: SetFinding | None = None
+    moved: Moved | None = None
+    motion: Motion | None = None  # of a set that is moved and traced in another way
     pattern: Pattern | None = None
     facts: dict[str, Any] = field(default_factory=dict)
 
@@ -50,40 +60,78 @@ class Finding:
         """Whether nothing is wrong on this data set."""
         return self.tier == "identical"
 
+    @property
+    def on_ladder(self) -> Sampled | None:
+        """A map of points that is not identical: what the rungs below look at."""
+        f = self.sampled
+        return f if f is not None and not self.right and f.values.ndim == 2 else None
+
 
 @dataclass(frozen=True)
 class Recognised:
-    """A known mistake that explains every data set; ``close``: but for a rounded constant."""
+    """A known mistake that explains every data set; ``close``: but for a rounded constant.
+
+    Mistakes compose: with a relabelling (``symmetry``), or with a ``second`` mistake.
+    """
 
     mistake: Mistake
     close: bool = False
     symmetry: Symmetry | None = None
+    second: Mistake | None = None
+
+
+# --- per data set ----------------------------------------------------------------------------------------------------------
 
 
 def find(gated: Gated) -> Finding:
-    """The cheap rungs on one data set."""
+    """Right or not, and what a value that is not right has to do with the right one."""
     if gated.stopped is not None:
         return Finding(gated, gated.stopped.tier)
     if gated.target.raises:
         return _expected_error(gated)
     if gated.sampled is not None:
-        return _find_map(gated, gated.sampled)
+        return Finding(gated, "identical" if gated.sampled.identical else "different")
     assert gated.answer is not None
     return _find_value(gated, gated.answer)
 
 
-def _find_map(gated: Gated, f: Sampled) -> Finding:
-    if f.identical:
-        return Finding(gated, "identical")
-    if f.target.exercise.kind == "mask":
-        return Finding(gated, "different")
+def climb(finding: Finding) -> None:
+    """The cheap rungs for a map: relabelled, close, other start."""
+    f = finding.on_ladder
+    if f is None:
+        return
     if symmetries := relabellings(f):
-        return Finding(gated, "relabelled", symmetries)
-    if f.close:
-        return Finding(gated, "close")
-    if shifted := other_start(f):
-        return Finding(gated, "other start", shifted=shifted)
-    return Finding(gated, "different")
+        finding.tier, finding.symmetries = "relabelled", symmetries
+    elif f.close:
+        finding.tier = "close"
+    elif shifted := other_start(f):
+        finding.tier, finding.shifted = "other start", shifted
+
+
+def search(finding: Finding, call: Callable[..., Any] | None) -> None:
+    """The rungs for sets and motions. Without ``call`` only what needs no further call: moved, point by point."""
+    f = finding.on_ladder
+    if f is None or finding.tier != "different":
+        return
+    probe = Probe(finding.gated, call) if call is not None else None
+    yours = None
+    if probe is not None and probe.possible:
+        try:
+            yours = measured(probe, len(f.target.names), f.target.measured.measure)
+            finding.sets = compare_sets(yours, f.target.measured, f.target.size)
+        except Exhausted:
+            yours = None
+    if finding.sets is not None:
+        finding.tier = finding.sets.tier
+        return
+    finding.moved = moved(f)
+    if finding.moved is None and yours is not None:
+        try:
+            finding.motion = moved_set(yours, f.target.measured, f.target.size)
+        except Exhausted:
+            return
+    if finding.moved is not None or finding.motion is not None:
+        finding.tier = "moved"
 
 
 def _expected_error(gated: Gated) -> Finding:
@@ -99,14 +147,12 @@ def _find_value(gated: Gated, answer: Answer) -> Finding:
         return Finding(gated, "identical")
     if value_rungs.same(target, answer, expected, near=CLOSE) and not _exact(expected):
         return Finding(gated, "close")
-    wrong_shape = False
     for item, mine, right in value_rungs.pairs(answer, expected):
         if value_rungs.same(target, mine, right):
             continue
         if isinstance(mine, Numbers) and isinstance(right, Numbers):
-            wrong_shape = wrong_shape or mine.values.shape != right.values.shape
-            found = value_rungs.pattern(target, mine, right)
-            return Finding(gated, "shape" if wrong_shape else "different", pattern=found, facts={"item": item})
+            tier: Tier = "shape" if mine.values.shape != right.values.shape else "different"
+            return Finding(gated, tier, pattern=value_rungs.pattern(target, mine, right), facts={"item": item})
         return Finding(gated, "different", facts={"item": item})
     return Finding(gated, "different")
 
@@ -118,19 +164,30 @@ def _exact(expected: Answer) -> bool:
     return isinstance(expected, Word) or (isinstance(expected, Numbers) and expected.was != "float")
 
 
+# --- known mistakes --------------------------------------------------------------------------------------------------------
+
+
 def recognise(findings: Sequence[Finding]) -> Recognised | None:
     """The known mistake whose answers are met on every data set."""
-    exercise = findings[0].target.exercise
-    for near in (0.0, CLOSE):
-        for mistake in exercise.mistakes:
-            if all(_made(finding, mistake, near) for finding in findings) and (not near or _far(findings, mistake)):
-                return Recognised(mistake, close=bool(near))
-        if all(f.tier in ("identical", "close", "relabelled", "other start") for f in findings):
-            return None  # these say more than a mistake that is nearly met
-    return None
+    mistakes = findings[0].target.exercise.mistakes
+    return next((Recognised(m) for m in mistakes if all(_made(finding, m) for finding in findings)), None)
 
 
-def _made(finding: Finding, mistake: Mistake, near: float) -> bool:
+def recognise_more(findings: Sequence[Finding]) -> Recognised | None:
+    """A known mistake with a rounded constant, with a relabelling on top, or together with a second one."""
+    mistakes = findings[0].target.exercise.mistakes
+    for mistake in mistakes:
+        if all(_made(finding, mistake, CLOSE) for finding in findings) and _far(findings, mistake):
+            return Recognised(mistake, close=True)
+    if any(finding.gated.stopped is not None or finding.target.raises for finding in findings):
+        return None
+    maps = [finding.sampled for finding in findings]
+    if any(f is None or f.values.ndim != 2 for f in maps):
+        return None
+    return _relabelled_mistake(maps, mistakes) or _two_mistakes(maps, mistakes)  # type: ignore[arg-type]
+
+
+def _made(finding: Finding, mistake: Mistake, near: float = 0.0) -> bool:
     target, known = finding.target, finding.target.mistake(mistake)
     answer = finding.gated.answer
     if target.raises or isinstance(known, Raised):
@@ -159,6 +216,57 @@ def _far(findings: Sequence[Finding], mistake: Mistake) -> bool:
         if np.nanmax(np.abs(known.values - f.target.values), initial=0.0) > NEARER * CLOSE * f.target.size:
             return True
     return False
+
+
+def _relabelled_mistake(maps: Sequence[Sampled], mistakes: Sequence[Mistake]) -> Recognised | None:
+    for mistake in mistakes:
+        for symmetry in maps[0].target.symmetries[1:]:
+            if all(_meets_relabelled(f, mistake, symmetry) for f in maps):
+                return Recognised(mistake, symmetry=symmetry)
+    return None
+
+
+def _meets_relabelled(f: Sampled, mistake: Mistake, symmetry: Symmetry) -> bool:
+    values = f.target.mistake_relabelled(mistake, symmetry)
+    return values is not None and _meets(f, values)
+
+
+def _two_mistakes(maps: Sequence[Sampled], mistakes: Sequence[Mistake]) -> Recognised | None:
+    """Two mistakes whose effects add up, or multiply coordinate by coordinate (a factor and another factor)."""
+    for one, other in itertools.combinations(mistakes, 2):
+        for combine in (_added, _multiplied):
+            if all(combine(f, one, other) for f in maps):
+                return Recognised(one, second=other)
+    return None
+
+
+def _both(f: Sampled, one: Mistake, other: Mistake) -> tuple[Array, Array] | None:
+    a, b = f.target.mistake(one), f.target.mistake(other)
+    if (
+        not isinstance(a, Numbers)
+        or not isinstance(b, Numbers)
+        or not a.values.shape == b.values.shape == f.target.values.shape
+    ):
+        return None
+    return a.values[f.indices], b.values[f.indices]
+
+
+def _added(f: Sampled, one: Mistake, other: Mistake) -> bool:
+    both = _both(f, one, other)
+    return both is not None and agree(f.values, both[0] + both[1] - f.expected, 4 * f.target.allowed)
+
+
+def _multiplied(f: Sampled, one: Mistake, other: Mistake) -> bool:
+    both = _both(f, one, other)
+    if both is None or not agree(f.values * f.expected, both[0] * both[1], 4 * f.target.allowed * f.target.size):
+        return False
+    # Where the right coordinate is 0 a product tells nothing.
+    blank = np.abs(f.expected) <= f.target.allowed
+    known = [np.abs(f.values - v) <= f.target.allowed for v in (f.expected, *both)]
+    return bool((known[0] | known[1] | known[2])[blank].all())
+
+
+# --- all data sets together ------------------------------------------------------------------------------------------------
 
 
 def overall(findings: Sequence[Finding]) -> Tier:

@@ -1,0 +1,133 @@
+"""The last rung: the same set of points, moved and traced in another way.
+
+Centroids and second moments of both sets give a first guess of the motion (up to the signs of the principal axes, and up to
+their order where moments agree). It is refined with residuals both ways, in which motion along free directions of the surface
+is projected out: plain point-to-point matching crawls along a cylinder, and one-sided matching never feels its ends.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from autograder.comparison.answers import Array
+from autograder.comparison.motion import Motion
+from autograder.comparison.nearest import Evaluator, Nearest, improved, nearest, slopes
+from autograder.comparison.sets import SAME, Measured, on
+
+MOMENTS = 0.02  # relative difference of second moments that is still taken for equal
+CANDIDATES = 3
+ROUNDS = 12
+
+
+def moved_set(yours: Measured, right: Measured, size: float) -> Motion | None:
+    """The motion that takes the right set to the learner's, or None."""
+    for motion in _guesses(yours, right)[:CANDIDATES]:
+        refined = _refined(motion, yours, right, size)
+        if refined is not None and _holds(refined, yours, right, size):
+            return refined
+    return None
+
+
+def _moments(of: Measured) -> tuple[Array, Array, Array]:
+    """Centroid, second moments (ascending) and principal axes (columns), weighted with the measure."""
+    weights = of.elements / of.elements.sum()
+    centre = weights @ of.points
+    away = of.points - centre
+    values, axes = np.linalg.eigh((weights[:, None] * away).T @ away)
+    return centre, values, axes
+
+
+def _guesses(yours: Measured, right: Measured) -> list[Motion]:
+    """Motions that match the moments, the best first; proper ones before mirrored ones that are as good."""
+    if not (yours.measure > 0 and right.measure > 0 and np.isfinite(yours.points).all()):
+        return []
+    (a, spread_a, axes_a), (b, spread_b, axes_b) = _moments(right), _moments(yours)
+    if not (spread_a[-1] > 0 and spread_b[-1] > 0):
+        return []
+    scale = float(np.sqrt(spread_b.sum() / spread_a.sum()))
+    if not 1e-3 < scale < 1e3:
+        return []
+    if abs(scale - 1) < MOMENTS:
+        scale = 1.0
+    if np.abs(spread_b - scale**2 * spread_a).max() > 2 * MOMENTS * spread_b[-1]:
+        return []
+    equal = np.diff(spread_a).min() < 4 * MOMENTS * spread_a[-1]
+    orders = list(itertools.permutations(range(3))) if equal else [(0, 1, 2)]
+    thin = yours.points[:: max(1, len(yours.points) // 300)]
+    across = float(np.sqrt(spread_a.sum()))
+    found: list[tuple[float, bool, int, Motion]] = []
+    for order, signs in itertools.product(orders, itertools.product((1.0, -1.0), repeat=3)):
+        turn = (axes_b[:, list(order)] * signs) @ axes_a.T
+        motion = Motion(scale, turn, b - scale * a @ turn.T)
+        distances, _ = right.cloud.tree.query(motion.inverse(thin))
+        found.append((round(float(distances.mean()) / across, 2), motion.reflects, len(found), motion))
+    return [entry[3] for entry in sorted(found, key=lambda entry: entry[:3])]
+
+
+def _refined(motion: Motion, yours: Measured, right: Measured, size: float) -> Motion | None:
+    """Two-sided Gauss-Newton over the motion; None where it does not come near."""
+    scaled = motion.scale != 1.0
+    x, z = yours.probes, right.probes
+    there = nearest(right.at, right.cloud, motion.inverse(x), 1e-2 * size)
+    back = nearest(yours.at, yours.cloud, motion(z), 1e-2 * size)
+    last = np.inf
+    for _ in range(ROUNDS):
+        pulled, met = motion.inverse(x), motion.inverse(back.points)
+        rows = [_residual(right.at, there, pulled, there.points, pulled)]
+        rows.append(_residual(yours.at, back, met, z, met, motion))
+        matrix, residual = (np.concatenate(parts) for parts in zip(*rows, strict=True))
+        if not scaled:
+            matrix = matrix[:, :6]
+        step = np.linalg.lstsq(matrix, -residual, rcond=1e-9)[0]
+        motion = _nudged(motion, step)
+        there = improved(right.at, there, motion.inverse(x))
+        back = improved(yours.at, back, motion(z))
+        worst = max(float(there.distances.max()), float(back.distances.max()))
+        if worst <= SAME * size / 10 or (worst > 0.9 * last and worst > 0.05 * size):
+            break
+        last = worst
+    return motion if worst <= 10 * SAME * size else None
+
+
+def _residual(
+    at: Evaluator, near: Nearest, points: Array, goal: Array, moving: Array, motion: Motion | None = None
+) -> tuple[Array, Array]:
+    """Rows (3K, 7) of d(residual)/d(turn, shift, log scale) and residuals (3K,), free tangent directions projected out."""
+    tangents = slopes(at, near.parameters, near.points)
+    if motion is not None:
+        tangents = tangents @ motion.turn / motion.scale
+    free = (near.parameters > 1e-9) & (near.parameters < 1 - 1e-9)
+    tangents = np.where(free[..., None], tangents, 0.0)
+    # Projector on what is orthogonal to the free tangents, by the pseudo-inverse: collapsed directions project nothing.
+    pseudo = np.linalg.pinv(tangents, rcond=1e-6)
+    project = np.eye(3) - pseudo @ tangents
+    k = len(points)
+    rate = np.zeros((k, 3, 7))
+    rate[:, 0, 1], rate[:, 0, 2] = moving[:, 2], -moving[:, 1]
+    rate[:, 1, 0], rate[:, 1, 2] = -moving[:, 2], moving[:, 0]
+    rate[:, 2, 0], rate[:, 2, 1] = moving[:, 1], -moving[:, 0]
+    rate[:, :, 3:6] = np.eye(3)
+    rate[:, :, 6] = moving
+    return (project @ rate).reshape(3 * k, 7), np.einsum("kij,kj->ki", project, points - goal).ravel()
+
+
+def _nudged(motion: Motion, step: Array) -> Motion:
+    """The motion after the pulled-back points have been turned, shifted and scaled by a small step."""
+    angle = float(np.linalg.norm(step[:3]))
+    k = step[:3] / angle if angle > 0 else np.array([0.0, 0.0, 1.0])
+    cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
+    turn = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    grow = float(np.exp(step[6])) if len(step) > 6 else 1.0
+    back = motion.inverse
+    pulled = Motion(back.scale * grow, turn @ back.turn, grow * back.shift @ turn.T + step[3:6])
+    return pulled.inverse
+
+
+def _holds(motion: Motion, yours: Measured, right: Measured, size: float) -> bool:
+    """Whether the moved right set and the learner's are the same set."""
+    inverse = motion.inverse
+    return on(inverse(yours.probes), right.at, right.cloud, size) and on(
+        motion(right.probes), yours.at, yours.cloud, size * motion.scale
+    )
