@@ -273,7 +273,7 @@ check(sphere)
 # ### Covered once, or twice?
 #
 # Sweep the *whole* circle a whole turn, with $\varphi = 2\pi u$. The picture looks the same. Does anything tell the two apart?
-# Here the area is added up from small parallelograms of the $(u, w)$ square. For $r = 2$ a sphere has $16\pi \approx 50.27$.
+# The next cell adds up its area, mesh by mesh. For $r = 2$ a sphere has $16\pi \approx 50.27$.
 # What will the whole circle give?
 
 # %%
@@ -284,8 +284,8 @@ area_of_two_passes = None
 def area(f, n=240):
     t = np.linspace(0, 1, n + 1)
     p = f(t[:, None], t[None, :])
-    along_u, along_w = np.diff(p, axis=0)[:, :-1], np.diff(p, axis=1)[:-1]
-    return np.linalg.norm(np.cross(along_u, along_w), axis=-1).sum()
+    rising, falling = p[1:, 1:] - p[:-1, :-1], p[:-1, 1:] - p[1:, :-1]  # the diagonals of each mesh
+    return np.linalg.norm(np.cross(rising, falling), axis=-1).sum() / 2
 
 
 with once_written():

@@ -3,8 +3,8 @@
 #
 # **An extruded beam is drawn as one profile and one arrow. What exactly must the arrow say?**
 #
-# You will write six functions: the arrow in two ways, the sweep in two ways, and the smallest sweeps of all, the plane and the
-# triangle. That takes about two hours. Predict, look, write, test it yourself, check. Later functions may call your earlier
+# You will write six functions: one for the arrow, two for the sweep, and the smallest sweeps of all, a plane and a triangle. That
+# takes about two hours. Predict, look, write, test it yourself, check. Later functions may call your earlier
 # ones.
 
 # %% [markdown]
@@ -396,11 +396,11 @@ with once_written():
 
 # %%
 def area(f, n=60):
-    """Small parallelograms of the (u, w) square, added up."""
+    """Area of a surface, added up from small meshes."""
     t = np.linspace(0, 1, n + 1)
     p = f(t[:, None], t[None, :])
-    along_u, along_w = np.diff(p, axis=0)[:, :-1], np.diff(p, axis=1)[:-1]
-    return np.linalg.norm(np.cross(along_u, along_w), axis=-1).sum()
+    rising, falling = p[1:, 1:] - p[:-1, :-1], p[:-1, 1:] - p[1:, :-1]  # the diagonals of each mesh
+    return np.linalg.norm(np.cross(rising, falling), axis=-1).sum() / 2
 
 
 with once_written():

@@ -27,16 +27,19 @@
 # %%
 z_goes_to = None  # "+x" or "-x"
 
-
 # %%
-def quarter(u):
-    """A quarter turn about y in the positive sense; the large dot is where it begins."""
-    t = np.pi / 2 * np.asarray(u)
-    return np.stack([np.sin(t), np.zeros(t.shape), np.cos(t)], axis=-1)
-
-
 reveal(z_goes_to, "+x, and +x goes on to -z")
-plot.view(quarter, curves={"thumb, +y": [[0, 0, 0], [0, 1, 0]], "y": [[0, 1, 0]]})
+
+turn = np.linspace(0, 0.5 * np.pi, 60)
+figure = go.Figure().update_layout(height=300, width=420, template="none", showlegend=False)
+figure.update_layout(title="seen from the tip of y: it points at you")
+for tip, text in (((1.2, 0), "z"), ((0, 1.2), "x")):
+    figure.add_annotation(x=tip[0], y=tip[1], ax=0, ay=0, axref="x", ayref="y", arrowhead=2, text="")
+    figure.add_annotation(x=1.15 * tip[0], y=1.15 * tip[1], text=f"<b>{text}</b>", showarrow=False)
+figure.add_scatter(x=np.cos(turn), y=np.sin(turn), mode="lines", line={"width": 4, "color": "#D55E00"})
+figure.add_scatter(x=[0], y=[1], mode="markers", marker={"size": 12, "symbol": "triangle-left"})
+figure.update_xaxes(visible=False, range=[-0.5, 1.6])
+figure.update_yaxes(visible=False, scaleanchor="x", range=[-0.2, 1.5])
 
 # %% [markdown]
 # ## 2 · The two curves of today
@@ -82,7 +85,7 @@ def board(u, w, curve=profile, angle=2 * np.pi):
 
 
 reveal(plus_is_positive, "False: a quarter turn takes +x to +z, and the fingers take it to -z")
-plot.view(board)
+plot.view(board, title="a vase, whichever sign you take")
 
 # %% [markdown]
 # **What you cannot see.** The other sign gives exactly the same picture: a whole turn hides the sense. Keep that in mind until
@@ -209,10 +212,6 @@ with once_written():
     for a, axis, b in ((1, "x", 2), (2, "y", 0), (0, "z", 1)):
         quarter_turn = revolve_coord(0, 1, lambda t, a=a: unit[a], axis, np.pi / 2)
         holds(f"about {axis}: {'xyz'[a]} goes to {'xyz'[b]}", quarter_turn, unit[b])
-
-# %%
-with once_written():
-    display(plot.view(lambda u, w: revolve_coord(u, w, spatial, "x", angle=np.pi), square=True))
 
 # %% check="revolve_coord"
 check(revolve_coord)

@@ -6,6 +6,7 @@ PNG a screenful. ``--released`` runs the learner's version with its stubs, ``--p
 
 import argparse
 import html
+import json
 import re
 import sys
 from pathlib import Path
@@ -67,7 +68,7 @@ def _output(output: Any) -> str:
         return f"<div class='out error'><pre>{ansi2html(chr(10).join(output.traceback))}</pre></div>"
     data = output.data
     if "application/vnd.plotly.v1+json" in data:
-        figure = nbformat.json.dumps(data["application/vnd.plotly.v1+json"]).replace("</", "<\\/")
+        figure = json.dumps(data["application/vnd.plotly.v1+json"]).replace("</", "<\\/")
         return f"<div class=out><div class=fig></div><script type=application/json class=figure>{figure}</script></div>"
     return f"<div class=out>{data.get('text/html') or '<pre>' + html.escape(data.get('text/plain', '')) + '</pre>'}</div>"
 

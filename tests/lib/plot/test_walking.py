@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-
 from directrix import plot
 from directrix.errors import GeometryError, ShapeError
 
