@@ -245,10 +245,11 @@ def _table(cases: Sequence[Case]) -> str:
         return f'<div style="margin: 3px 0"><b>Data sets:</b> {_escape(said)}</div>'
     columns = _columns(cases)
     head = "".join(_cell(name, "th") for name in columns)
-    rows = [f"<tr>{head}</tr>"] if any(columns) else []
+    plain = '<tr style="background-color: transparent">'  # JupyterLab would stripe the rows
+    rows = [f"{plain}{head}</tr>"]
     for case in cases:
         cells = {"data set": _data_of(case), "result": _result_of(case), **_worst_of(case)}
-        rows.append("<tr>" + "".join(_cell(cells.get(name, "")) for name in columns) + "</tr>")
+        rows.append(plain + "".join(_cell(cells.get(name, "")) for name in columns) + "</tr>")
     return (
         '<div style="overflow-x: auto; margin: 8px 0 0 0"><table style="border-collapse: collapse; font-size: 13px; '
         f'margin: 0">{"".join(rows)}</table></div>'

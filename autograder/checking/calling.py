@@ -12,6 +12,7 @@ import linecache
 import traceback
 import warnings
 from collections.abc import Callable, Iterator
+from itertools import groupby
 from types import TracebackType
 from typing import Any
 
@@ -112,6 +113,10 @@ class Heard(io.TextIOBase):
 
     def shown(self) -> str:
         """The beginning, and how much more there was."""
-        lines = self.kept.splitlines()
+        lines = [_counted(line, len(list(same))) for line, same in groupby(self.kept.splitlines())]
         text = "\n".join(lines[:LINES])
         return text if self.total <= KEPT and len(lines) <= LINES else f"{text}\n… ({self.total} characters in all)"
+
+
+def _counted(line: str, times: int) -> str:
+    return line if times == 1 else f"{line}    ({times} times)"

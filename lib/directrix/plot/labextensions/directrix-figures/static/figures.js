@@ -109,8 +109,9 @@
     holders.forEach(function (holder) { near.observe(holder); away.observe(holder); });
   }
 
-  if (typeof _JUPYTERLAB !== "undefined") {
+  if (document.getElementById("jupyter-config-data")) {
     // The shape that JupyterLab expects of a prebuilt extension: a module-federation container.
+    window._JUPYTERLAB = window._JUPYTERLAB || {};
     var plugin = { id: "directrix-figures:plugin", description: "Linked cameras and alternative text of figures.", autoStart: true, activate: watch };
     window._JUPYTERLAB["directrix-figures"] = {
       init: function () { return Promise.resolve(); },
