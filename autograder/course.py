@@ -98,8 +98,15 @@ class Course:
 
     def submissions(self, assignment: str) -> dict[str, Path]:
         """Folders handed in for an assignment, by student, in order."""
+        return self._folders("submitted", assignment)
+
+    def graded(self, assignment: str) -> dict[str, Path]:
+        """Folders of graded submissions of an assignment, by student, in order."""
+        return self._folders("autograded", assignment)
+
+    def _folders(self, step: str, assignment: str) -> dict[str, Path]:
         marker = "\0"
-        pattern = str(self.path("submitted", marker, assignment).relative_to(self.root))
+        pattern = str(self.path(step, marker, assignment).relative_to(self.root))
         before, _, after = pattern.partition(marker)
         excluded = str(self.get("CourseDirectory", "student_id_exclude", "")).split(",")
         found = {}

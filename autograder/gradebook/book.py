@@ -176,6 +176,23 @@ class Gradebook:
                 for row in rows
             }
 
+    def penalties(self, of: AssignmentRow) -> dict[tuple[str, str], float]:
+        """Points taken off for lateness, by (student, notebook)."""
+        names = {row.id: name for name, row in of.notebooks.items()}
+        joined = submitted_notebook.join(submitted_assignment, submitted_notebook.c.assignment_id == submitted_assignment.c.id)
+        query = (
+            sa.select(
+                submitted_assignment.c.student_id,
+                submitted_notebook.c.notebook_id,
+                submitted_notebook.c.late_submission_penalty,
+            )
+            .select_from(joined)
+            .where(submitted_assignment.c.assignment_id == of.id)
+        )
+        with self._begin() as connection:
+            rows = connection.execute(query)
+            return {(row.student_id, names[row.notebook_id]): row.late_submission_penalty or 0.0 for row in rows}
+
     def comments(self, of: AssignmentRow, name: str) -> dict[tuple[str, str], str]:
         """The comment that a student reads, by (notebook, cell): the instructor's, else the automatic one."""
         kinds = {id: (nb.master.notebook, cell) for nb in of.notebooks.values() for cell, id in nb.commented.items()}

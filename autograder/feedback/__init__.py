@@ -1,0 +1,8 @@
+"""Feedback pages: each graded notebook as one HTML file, with the verdict cards, the figures and the comments.
+
+feedback.write(course, "A1")    # feedback/<student>/A1/<notebook>.html, the same files that nbgrader writes
+"""
+
+from autograder.feedback.write import sheet, write
+
+__all__ = ["sheet", "write"]
