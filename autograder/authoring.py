@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import logging
+import os
 import secrets
 import shutil
+import sysconfig
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -80,7 +82,7 @@ def release(course: Path, name: str) -> Path:
         raise CourseError(f"no assignment {name!r} in {course / 'source'}; there are: {', '.join(there) or 'none'}")
     config: Any = PyFileConfigLoader("nbgrader_config.py", path=str(course)).load_config()
     config.CourseDirectory.root = str(course.resolve())
-    with _quiet("traitlets"):
+    with _quiet("traitlets"), _tools_on_path():
         result = NbGraderAPI(config=config).generate_assignment(name, force=True, create=True)
     if not result["success"]:
         raise CourseError(f"nbgrader could not release {name}:\n{(result.get('log') or result.get('error') or '').strip()}")
@@ -118,6 +120,17 @@ def remove_course(folder: Path) -> None:
         if path.is_dir() and not path.is_symlink():
             path.chmod(0o700)  # nbgrader leaves graded folders read-only
     shutil.rmtree(folder)
+
+
+@contextmanager
+def _tools_on_path() -> Iterator[None]:
+    """nbgrader starts `alembic` by name: let it find the one beside our interpreter, in an environment not activated too."""
+    before = os.environ.get("PATH", os.defpath)
+    os.environ["PATH"] = os.pathsep.join([sysconfig.get_path("scripts"), before])
+    try:
+        yield
+    finally:
+        os.environ["PATH"] = before
 
 
 @contextmanager
