@@ -7,7 +7,6 @@ writes it into a page must sanitise it.
 from __future__ import annotations
 
 import json
-import math
 import re
 from typing import Any
 
@@ -17,26 +16,40 @@ IMAGES = ("image/png", "image/jpeg", "image/gif")
 ACTIVE = ("text/html", "text/markdown", "text/latex")
 JSON_TYPES = ("application/json", "application/vnd.plotly.v1+json")
 MIME_TYPES = ("text/plain", *ACTIVE, *IMAGES, *JSON_TYPES)
-BASE64 = re.compile(r"[A-Za-z0-9+/\s]*={0,2}\s*")
+BASE64 = re.compile(r"[A-Za-z0-9+/\s]*+={0,2}\s*+")  # possessive: linear on any input
 JSON_DEPTH = 40
 JSON_ITEMS = 300_000
+MORE_OUTPUTS, MORE_CHARACTERS = 200, 1_000_000  # notes, tracebacks, names of types
 MAX_PIXELS = 20_000
+LARGEST = 1.7e308
 SURROGATES = re.compile("[\ud800-\udfff]")
+# Not newline and tab; also the marks that turn the direction of writing.
+CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
 
 Output = dict[str, Any]
 
 
-def outputs(value: Any) -> list[tuple[Output, str]]:
+def outputs(value: Any, characters: int, count: int) -> list[tuple[Output, str]]:
     """nbformat outputs from what a child sent, each with its display id (empty for most).
+
+    Our child keeps to the limits of ``characters`` and ``count`` itself, but for a few notes and tracebacks; so more than
+    that is forged.
 
     Raises
     ------
     WireError
-        If it does not have the form that our child sends.
+        If it does not have the form, or the bounds, of what our child sends.
     """
-    if not isinstance(value, tuple):
-        raise WireError("outputs are a tuple")
+    if not isinstance(value, tuple) or len(value) > count + MORE_OUTPUTS:
+        raise WireError("more outputs than a cell may show")
+    if sum(map(_length, value)) > characters + MORE_CHARACTERS:
+        raise WireError("longer outputs than a cell may show")
     return [_output(item) for item in value]
+
+
+def _length(item: Any) -> int:
+    """Characters in nested tuples of texts."""
+    return len(item) if isinstance(item, str) else sum(map(_length, item)) if isinstance(item, tuple) else 0
 
 
 def updates(value: Any) -> list[tuple[Output, str]]:
@@ -53,8 +66,13 @@ def text(value: Any, limit: int = 1 << 30) -> str:
     return SURROGATES.sub("\ufffd", value[:limit])
 
 
+def plain(value: Any, limit: int) -> str:
+    """A text that a terminal or a table may show: :func:`text` without control characters but newline and tab."""
+    return CONTROLS.sub("\ufffd", text(value, limit))
+
+
 def _output(item: Any) -> tuple[Output, str]:
-    kind = item[0] if (isinstance(item, tuple) and len(item) == 4) or (isinstance(item, tuple) and len(item) == 3) else None
+    kind = item[0] if isinstance(item, tuple) and len(item) in (3, 4) else None
     if kind == "stream" and len(item) == 3 and item[1] in ("stdout", "stderr"):
         return {"output_type": "stream", "name": item[1], "text": text(item[2])}, ""
     if kind == "error" and len(item) == 4 and isinstance(item[3], tuple):
@@ -121,7 +139,7 @@ def _checked(value: Any, depth: int) -> Any:
         raise ValueError("nested too deeply")
     if isinstance(value, str):
         return text(value)
-    if isinstance(value, float) and not math.isfinite(value):
+    if isinstance(value, int | float) and not abs(value) < LARGEST:  # also NaN
         raise ValueError("a number too large")
     if isinstance(value, list):
         return [_checked(item, depth - 1) for item in value]

@@ -30,15 +30,16 @@ class Policy:
 class Limits:
     """What a notebook may use. Times are CPU seconds as the grader measures them; bytes elsewhere.
 
-    A cell or call may take three times its CPU time plus ten seconds by the clock: marks must not depend on how busy the
-    machine is. ``memory`` is what code may ask for beyond what the interpreter already has. ``output`` and ``outputs`` bound
-    what one cell shows, ``answer`` what one call returns, ``file`` one file, ``scratch`` all files together, ``files``
+    A cell or call may take three times its CPU time plus ``patience`` seconds by the clock: marks must not depend on how
+    busy the machine is. ``memory`` is what code may ask for beyond what the interpreter already has; ``output``
+    (characters) and ``outputs`` bound what one cell shows, ``answer`` what one call returns, ``file`` one file, ``scratch`` all files together, ``files``
     their number; ``threads`` the threads at once. Processes are never allowed.
     """
 
     cell_cpu: float = 20.0
     call_cpu: float = 5.0
     notebook_cpu: float = 120.0
+    patience: float = 10.0
     memory: int = 1024 * MiB
     output: int = 1 * MiB
     outputs: int = 200
@@ -48,10 +49,9 @@ class Limits:
     files: int = 1000
     threads: int = 64
 
-    @staticmethod
-    def wall(cpu: float) -> float:
+    def wall(self, cpu: float) -> float:
         """Seconds by the clock for so many CPU seconds."""
-        return 3 * cpu + 10
+        return 3 * cpu + self.patience
 
     def for_child(self) -> dict[str, float | int]:
         """What the child itself enforces, as plain numbers."""

@@ -13,7 +13,7 @@ from autograder.sandbox.policy import CellResult, CellStatus, Ended, Limits, Usa
 from autograder.sandbox.process import Action, Over, Process
 from autograder.sandbox.wire import Value, WireError
 
-ROOM = 8 * 2**20  # of a frame beyond the text it shows: tracebacks, names, framing
+ROOM = 4 * 2**20  # of a frame beyond the text it shows: tracebacks, names, framing
 START_SECONDS = 30.0
 STATUSES = ("ok", "error", "timeout", "memory")
 FAILURES = ("error", "timeout", "memory", "refused", "missing")
@@ -64,12 +64,12 @@ class Session:
             If the sandbox itself fails.
         """
         limits = limits or self.limits
-        action = self._action(messages.CELL, limits.cell_cpu, limits, 2 * limits.output + ROOM)
+        action = self._action(messages.CELL, limits.cell_cpu, limits, 4 * limits.output + ROOM)
         if self.ended is not None:
             return CellResult(status="died", note=self.ended.message)
         try:
             request = (source, action.cpu, action.wall, limits.output, limits.outputs)
-            return self._cell_result(self._ask(wire.CELL, request, action), action)
+            return self._cell_result(self._ask(wire.CELL, request, action), action, limits)
         except Over as over:
             return CellResult(status=over.ended.kind, note=over.ended.message)
 
@@ -156,9 +156,9 @@ class Session:
         self.ended = Ended("refused", messages.protocol(error), "protocol")
         return Over(self.ended)
 
-    def _cell_result(self, answer: Any, action: Action) -> CellResult:
+    def _cell_result(self, answer: Any, action: Action, limits: Limits) -> CellResult:
         try:
-            status, number, shown, changed = _checked_cell(answer)
+            status, number, shown, changed = _checked_cell(answer, limits)
         except WireError as error:
             raise self._breach(error) from None
         for output, name in changed:
@@ -195,12 +195,12 @@ class Session:
         return self.out_of_time
 
 
-def _checked_cell(answer: Any) -> tuple[CellStatus, int, list[Any], list[Any]]:
+def _checked_cell(answer: Any, limits: Limits) -> tuple[CellStatus, int, list[Any], list[Any]]:
     """Status, number, outputs and updates of a cell's result."""
     if not (isinstance(answer, tuple) and len(answer) == 4 and answer[0] in STATUSES and type(answer[1]) is int):
         raise WireError("a cell's result of no known form")
     number = max(0, min(answer[1], 10**6))
-    shown, changed = outputs.outputs(answer[2]), outputs.updates(answer[3])
+    shown, changed = outputs.outputs(answer[2], limits.output, limits.outputs), outputs.updates(answer[3])
     for output, _ in shown:
         if output["output_type"] == "execute_result":
             output["execution_count"] = number
@@ -215,8 +215,8 @@ def _checked_failure(answer: Any) -> CallFailed:
     if not isinstance(bases, tuple) or not (line is None or (type(line) is int and 0 < line < 10**6)):
         raise WireError("a failure of no known form")
     return CallFailed(
-        kind, outputs.text(message, 2000), exception=outputs.text(name, 100), line=line, source=outputs.text(source, 500),
-        bases=tuple(outputs.text(base, 100) for base in bases[:20]),
+        kind, outputs.plain(message, 2000), exception=outputs.plain(name, 100), line=line, source=outputs.plain(source, 500),
+        bases=tuple(outputs.plain(base, 100) for base in bases[:20]),
     )  # fmt: skip
 
 

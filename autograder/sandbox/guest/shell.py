@@ -29,7 +29,7 @@ from autograder.sandbox.guest.answers import TimeLimitExceeded
 JSON_TYPES = ("application/json", "+json")
 MORE = "\n... the output of this cell is cut here: it shows more than {} kB.\n"
 MANY = "\n... the output of this cell is cut here: it shows more than {} things.\n"
-ERRORS = 2_000_000  # characters of tracebacks that one cell may show
+ERRORS = 300_000  # characters of tracebacks that one cell may show
 Output = list[Any]
 
 

@@ -1,0 +1,220 @@
+"""Which isolation this machine gives, found out by attacking it.
+
+Every attack of ``sandbox/attacks.py`` is run inside the sandbox, and once outside it: an attack that fails without the sandbox
+too proves nothing here and is not counted. The level is the best one whose sandbox starts and stops all that count.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import platform
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, Literal
+
+from autograder.errors import CallFailed, IsolationError, SandboxError
+from autograder.sandbox import attacks, system
+from autograder.sandbox.box import LEVELS, Sandbox
+from autograder.sandbox.launcher import bubblewrap
+from autograder.sandbox.policy import Limits, Policy
+
+SCRIPT = Path(attacks.__file__)
+ATTACKS = tuple(
+    name for name, value in vars(attacks).items() if callable(value) and value.__module__ == attacks.__name__ and name[0] != "_"
+)
+MiB = 2**20
+LIMITS = Limits(call_cpu=0.4, patience=0.5, memory=512 * MiB, scratch=8 * MiB, file=4 * MiB, files=500)
+PATIENCE = 20.0  # seconds that an endless attack would go on for; being stopped takes less than two
+UNGUARDED_SECONDS = 1.5
+
+Outcome = Literal["stopped", "got through", "proves nothing"]
+
+
+@dataclass(frozen=True)
+class Probe:
+    """One attack: what it tried, what came of it in the sandbox, and whether it works without."""
+
+    name: str
+    tried: str
+    outcome: Outcome
+    detail: str = ""
+
+
+@dataclass(frozen=True)
+class Report:
+    """The level reached, the attacks, what the machine has, and what to do where a level is not given."""
+
+    level: str
+    meaning: str
+    probes: tuple[Probe, ...]
+    machine: dict[str, Any]
+    advice: tuple[str, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain lists, dicts and strings."""
+        return asdict(self)
+
+
+def report() -> list[Probe]:
+    """The attacks at the best level that this machine gives."""
+    return list(examine().probes)
+
+
+def examine(levels: tuple[str, ...] = ("A", "A-")) -> Report:
+    """Run the attacks at each level in turn until one is given in full."""
+    advice: list[str] = []
+    probes: tuple[Probe, ...] = ()
+    with _decoys() as facts:
+        bare = without_sandbox(facts)
+        for level in levels:
+            try:
+                probes = attack(level, facts, bare)
+            except SandboxError as error:
+                advice.append(f"{level}: {error}")
+                continue
+            through = [probe.name for probe in probes if probe.outcome == "got through"]
+            if not through:
+                return Report(level, LEVELS[level], probes, machine(), tuple(advice + _advice(level)))
+            advice.append(f"{level}: not stopped: {', '.join(through)}")
+    return Report("D", LEVELS["D"], probes, machine(), tuple(advice + _advice("D")))
+
+
+def attack(level: str, facts: dict[str, Any], bare: dict[str, str]) -> tuple[Probe, ...]:
+    """All attacks in a sandbox of that level. ``bare`` says how each went without: "got through", or why not.
+
+    Raises
+    ------
+    IsolationError
+        If the level is not given at all.
+    """
+    with Sandbox(Policy(packages=(), preload=()), level) as box:
+        return tuple(_probe(box, name, facts, bare[name]) for name in ATTACKS)
+
+
+def without_sandbox(facts: dict[str, Any]) -> dict[str, str]:
+    """Run every attack as an ordinary process of this user: how it went."""
+    with ThreadPoolExecutor(4) as pool:
+        return dict(zip(ATTACKS, pool.map(lambda name: _unguarded(name, facts), ATTACKS), strict=True))
+
+
+def machine() -> dict[str, Any]:
+    """What this machine has for a sandbox."""
+    try:
+        program = bubblewrap()
+        version = subprocess.run([program, "--version"], capture_output=True, text=True, check=False).stdout.strip()
+    except (IsolationError, OSError) as error:
+        program, version = "", str(error)
+    return {
+        "system": platform.platform(),
+        "user": "root, who drops to another uid" if os.geteuid() == 0 else f"uid {os.geteuid()}",
+        "bubblewrap": f"{program} ({version})" if program else version,
+        "landlock": system.landlock_abi() if sys.platform == "linux" else 0,
+    }
+
+
+def _probe(box: Sandbox, name: str, facts: dict[str, Any], bare: str) -> Probe:
+    tried = (getattr(attacks, name).__doc__ or "").strip().splitlines()[0]
+    if bare != "got through":
+        return Probe(name, tried, "proves nothing", f"without the sandbox: {bare}")
+    probe = Probe(name, tried, "stopped")
+    with box.open(limits=LIMITS) as neighbour, box.open(limits=LIMITS) as session:
+        neighbour.run_cell("open('/tmp/left', 'w').write('secret') if __import__('os').access('/tmp', 2) else 0")
+        place = neighbour.run_cell("print(__import__('tempfile').gettempdir())").outputs[0]["text"].strip()
+        neighbour.run_cell("open(__import__('tempfile').gettempdir() + '/left', 'w').write('secret')")
+        session.run_cell(SCRIPT.read_text("utf-8").replace('if __name__ == "__main__"', "if False"))
+        known = facts | {"left": f"{place}/left", "grader": os.getpid(), "victim": 0}
+        began = time.monotonic()
+        try:
+            through = session.call(name, (json.dumps(known),)) is True
+            detail = ""
+        except CallFailed as failure:
+            through, detail = False, failure.exception + (": " if failure.exception else "") + failure.message
+        if name in ("kill_others", "kill_group"):
+            with contextlib.suppress(SandboxError):
+                through = through or neighbour.run_cell("1").status != "ok"
+                box.open().close()
+        seconds = time.monotonic() - began
+    detail += f" ({seconds:.1f} s)" if seconds > 0.5 else ""
+    return replace(probe, outcome="got through" if through else "stopped", detail=detail.strip())
+
+
+def _unguarded(name: str, facts: dict[str, Any]) -> str:
+    """The same attack without a sandbox, in a folder of its own, with one harmless process as its victim."""
+    endless = name in ("ignore_the_end", "hang_in_c", "sleep")
+    with tempfile.TemporaryDirectory() as folder, open(facts["decoy"], "rb") as decoy:
+        sleeper = [sys.executable, "-S", "-c", "import time; time.sleep(60)"]
+        victim = subprocess.Popen(sleeper, process_group=0)
+        try:
+            known = facts | {"victim": victim.pid, "left": facts["decoy"], "grader": os.getpid(), "patience": UNGUARDED_SECONDS}
+            command = [sys.executable, str(SCRIPT), name, json.dumps(known)]
+            done = subprocess.run(
+                command, cwd=folder, capture_output=True, text=True, timeout=30, pass_fds=[decoy.fileno()],
+                process_group=victim.pid,
+                env=os.environ | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}, check=False,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired:
+            return "took too long"
+        finally:
+            victim.kill()
+            victim.wait()
+    if done.stdout.strip().endswith("True"):
+        return "got through"
+    last = done.stderr.strip().splitlines()
+    return last[-1] if last and not endless else "it did nothing"
+
+
+@contextlib.contextmanager
+def _decoys() -> Iterator[dict[str, Any]]:
+    """A file that looks like a gradebook, a folder to write to, servers to connect to: open to every user of the machine."""
+    with contextlib.ExitStack() as stack:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="doctor-")))
+        folder.chmod(0o755)
+        (folder / "gradebook.db").write_text("secret marks", "utf-8")
+        (folder / "gradebook.db").chmod(0o644)
+        (folder / "writable").mkdir()
+        (folder / "writable").chmod(0o777)
+        tcp = stack.enter_context(socket.create_server(("127.0.0.1", 0)))
+        abstract = f"directrix-doctor-{os.getpid()}"
+        for address in (f"\0{abstract}", str(folder / "socket")):
+            server = stack.enter_context(socket.socket(socket.AF_UNIX))
+            server.bind(address)
+            server.listen(64)
+        (folder / "socket").chmod(0o777)
+        yield {
+            "decoy": str(folder / "gradebook.db"), "writable": str(folder / "writable"), "unix": str(folder / "socket"),
+            "port": tcp.getsockname()[1], "abstract": abstract, "memory": LIMITS.memory, "scratch": LIMITS.scratch,
+            "file": LIMITS.file, "patience": PATIENCE,
+        }  # fmt: skip
+
+
+def _advice(level: str) -> list[str]:
+    """What to do to reach level A."""
+    if level == "A":
+        return []
+    if sys.platform != "linux":
+        return ["Grade on Linux: a virtual machine, WSL2, or a container started with the options the handbook names."]
+    return [
+        "Level A needs bubblewrap, user namespaces and Landlock (Linux 5.13 or newer).",
+        "Ubuntu 24.04 and newer: `apt install bubblewrap` (only the system's program may make namespaces there), or "
+        "`sysctl kernel.apparmor_restrict_unprivileged_userns=0`.",
+        "In a container: allow user namespaces and mounts (Docker: --security-opt seccomp=unconfined "
+        "--security-opt apparmor=unconfined --security-opt systempaths=unconfined), or grade outside of it.",
+    ]
+
+
+def main() -> None:
+    """``python -m autograder.doctor``: the report as JSON."""
+    print(json.dumps(examine().to_dict(), indent=1))
+
+
+if __name__ == "__main__":
+    main()
