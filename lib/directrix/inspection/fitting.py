@@ -132,6 +132,7 @@ def algebraic_sphere(points: Array) -> IdealSphere:
 
 def fit_sphere(points: Array) -> Form:
     """The orthogonal least-squares sphere, from the linear fit."""
+    curved(points, "sphere")
     return checked_bend(least_squares(algebraic_sphere(points), points), points, "sphere")
 
 
@@ -150,13 +151,22 @@ def fit_torus(points: Array) -> Form:
     return best_of(torus_starts(points), points, "torus")
 
 
+def curved(points: Array, name: str) -> None:
+    """Refuse points on a line or in a plane: no form that bends fits them best."""
+    spread = np.linalg.svd(points, compute_uv=False)
+    if spread[2] <= 1e-9 * spread[0]:
+        where = "on a line" if spread[1] <= 1e-9 * spread[0] else "in one plane"
+        raise DegenerateError(f"the points lie {where}: no one {name} fits them best. Measure points off it, or use flatness.")
+
+
 def best_of(starts: Iterable[Form], points: Array, name: str) -> Form:
     """Refine each start on a sample and the best on all points."""
+    curved(points, name)
     sample = thinned(points)
     tried = [least_squares(start, sample, rounds=40) for start in islice(starts, REFINED)]
     tried = [form for form in tried if np.isfinite(form.residuals(sample)[0]).all()]
     if not tried:
-        raise DegenerateError(f"no {name} could be fitted: the points lie on a line, in a plane or in one place.")
+        raise DegenerateError(f"no {name} could be fitted to these points: no start led anywhere.")
     best = min(tried, key=lambda form: float(np.square(form.residuals(sample)[0]).sum()))
     return checked_bend(least_squares(best, points), points, name)
 
@@ -202,9 +212,27 @@ def _ranked(rows: Array, target: Array, rho: Array) -> tuple[Array, Array]:
     return solution, np.argsort(score)
 
 
+def arch(points: Array) -> tuple[Array, Array, float]:
+    """A point of the axis, the axis and the radius of the cylinder that osculates nearly flat points.
+
+    Heights over their plane are fitted by a quadratic; the axis is its direction of least curvature, the radius the inverse of
+    the greatest, at most a thousand times the size of the points.
+    """
+    frame = np.linalg.svd(points, full_matrices=False)[2]
+    x, y, z = (points @ frame.T).T
+    size = float(np.abs(points).max())
+    rows = np.column_stack([x * x, x * y, y * y, x, y, np.ones_like(x)]) / size
+    a, b, c = np.linalg.lstsq(rows, z / size, rcond=1e-12)[0][:3]
+    bends, directions = np.linalg.eigh([[2 * a, b], [b, 2 * c]])
+    most = int(np.argmax(np.abs(bends)))
+    bend = np.sign(bends[most] or 1.0) * max(abs(bends[most]), 1e-3 / size)
+    return frame[2] / bend, directions[:, 1 - most] @ frame[:2], abs(1 / bend)
+
+
 def cylinder_starts(points: Array) -> Iterable[Form]:
     """For each direction the circle |q|² = 2 c·q + k of the points seen along it; best first."""
     points = thinned(points)
+    yield IdealCylinder(*arch(points))
     axes, frames, q, _, size = _projections(points)
     rows = np.concatenate([2 * q, np.ones((*q.shape[:2], 1))], axis=2)
     solution, order = _ranked(rows, (q * q).sum(axis=2), _spread(q))
@@ -216,6 +244,7 @@ def cylinder_starts(points: Array) -> Iterable[Form]:
 def cone_starts(points: Array) -> Iterable[Form]:
     """For each direction the cone |q|² = 2 c·q + k + a h + s² h²; best first."""
     points = thinned(points)
+    yield IdealCone(*arch(points), 0.0)
     axes, frames, q, h, size = _projections(points)
     rows = np.concatenate([2 * q, np.ones((*q.shape[:2], 1)), h[..., None], h[..., None] ** 2], axis=2)
     solution, order = _ranked(rows, (q * q).sum(axis=2), _spread(q))
