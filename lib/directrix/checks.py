@@ -234,6 +234,8 @@ def _real(name: str, value: Any) -> Array:
         if given.dtype.kind not in "biuf":
             if given.dtype.kind != "O":
                 raise TypeError(f"an array of {given.dtype}")
+            if any(item is None for item in given.flat):
+                raise TypeError("None stands for no number")
             given = given.astype(np.float64)
         return np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError) as error:

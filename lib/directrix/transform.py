@@ -117,7 +117,7 @@ class Transform(Frozen):
         angle : radians, positive anticlockwise when the direction points at you; exact at multiples of pi / 2
         point : (3,), any point of the axis
         """
-        k = checks.direction("direction", AXES.get(direction, ORIGIN) if isinstance(direction, str) else direction)
+        k = _direction("direction", direction)
         cos, sin = (float(part) for part in turn(np.array(checks.number("angle", angle) / (2 * pi))))
         cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
         linear = cos * np.eye(3) + sin * cross + (1 - cos) * np.outer(k, k)
@@ -130,7 +130,7 @@ class Transform(Frozen):
         >>> Transform.reflect("x", point=(1, 0, 0)) @ (3, 5, 7)
         array([-1.,  5.,  7.])
         """
-        n = checks.direction("normal", AXES.get(normal, ORIGIN) if isinstance(normal, str) else normal)
+        n = _direction("normal", normal)
         return cls._about(np.eye(3) - 2 * np.outer(n, n), point)
 
     @classmethod
@@ -192,3 +192,10 @@ class Transform(Frozen):
                 "transform @ FunctionCurve(f), or apply transform.points to what it returns."
             )
         return self.points(other)
+
+
+def _direction(name: str, value: ArrayLike | str) -> Array:
+    """A unit direction from 'x', 'y', 'z' or a vector."""
+    if isinstance(value, str):
+        value = AXES[checks.choice(name, value, tuple(AXES), hint="Or give a vector of shape (3,).")]
+    return checks.direction(name, value)

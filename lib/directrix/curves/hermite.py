@@ -16,8 +16,8 @@ class HermiteCurve(Curve):
     """The Hermite (Ferguson) cubic: p(u) = F1 p0 + F2 p1 + F3 t0 + F4 t1, of degree 3 (order 4).
 
     F1 = 2u^3 - 3u^2 + 1, F2 = -2u^3 + 3u^2, F3 = u^3 - 2u^2 + u, F4 = u^3 - u^2, so p(0) = p0, p(1) = p1, p'(0) = t0,
-    p'(1) = t1 (Mortenson, Geometric Modeling, 3rd ed., "Hermite Basis Functions"). The tangents are derivatives with respect to u: three
-    times the first and last legs of the Bezier polygon. Derivatives to any order.
+    p'(1) = t1 (Mortenson, Geometric Modeling, 3rd ed., "Hermite Basis Functions"). The tangents are derivatives with respect
+    to u: three times the first and last legs of the Bezier polygon. Derivatives to any order.
 
     Parameters
     ----------

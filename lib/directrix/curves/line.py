@@ -15,7 +15,8 @@ from directrix.transform import Transform
 class Line(Curve):
     """The straight line from one point to another: p(u) = (1 - u) start + u end.
 
-    Derivatives to any order; the ends are met exactly. (Mortenson, Geometric Modeling, 3rd ed., "Parametric Equations of Curves".)
+    Derivatives to any order; the ends are met exactly. (Mortenson, Geometric Modeling, 3rd ed., "Parametric Equations of
+    Curves".)
 
     Parameters
     ----------

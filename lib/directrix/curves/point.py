@@ -17,7 +17,7 @@ class PointCurve(Curve):
     """The polynomial curve through n points: p(u) = sum of L_i(u) P_i, of degree n - 1 (order n), p(u_i) = P_i.
 
     L_i(u) = prod over k != i of (u - u_k) / (u_i - u_k) (Lagrange; Mortenson, Geometric Modeling, 3rd ed., "Four-Point
-    Interpolation", the four-point form with parameters 0, 1/3, 2/3, 1). Other parameters give another curve through the same points; more than
+    Interpolation", has parameters 0, 1/3, 2/3, 1). Other parameters give another curve through the same points; more than
     about ten equally spaced ones oscillate (Runge). Derivatives to any order.
 
     Parameters

@@ -208,8 +208,8 @@ class Torus(Surface):
         """
         if self.R:
             raise ConversionError(
-                f"a torus with R = {self.R:g} is a surface of degree four, (x^2 + y^2 + z^2 + R^2 - r^2)^2 = 4 R^2 (x^2 + y^2), "
-                "and no quadric; only R = 0, the sphere, is one."
+                f"a torus with R = {self.R:g} is no quadric but a surface of degree four, "
+                "(x^2 + y^2 + z^2 + R^2 - r^2)^2 = 4 R^2 (x^2 + y^2); only R = 0, the sphere, is one."
             )
         return Sphere(self.r).implicit()
 
