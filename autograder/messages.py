@@ -75,6 +75,7 @@ TEXT: dict[str, str] = {
     "wrong.different_inside": "It differs inside only: all edges are right, but between them it is up to {amount} away.",
     "wrong.different_corners": "It is exact at the corners only: between them it is up to {amount} away.",
     "wrong.hidden": "It is not right on {data}.",
+    "wrong.hidden_error": "Your function stops there with {exception}.",
     "wrong.same_set": (
         "Right {noun} as a set of points, but traced in another way: the point at the same {names} is another one."
     ),

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from autograder.comparison.answers import Answer, Numbers, Raised, Several, ask
+from autograder.comparison.answers import Answer, Numbers, Raised, ask
 from autograder.comparison.samples import read_only
 from autograder.comparison.target import Target
 
@@ -52,10 +52,9 @@ class _Stopped(Exception):
 def ask_all(targets: Sequence[Target], call: Callable[..., Any]) -> list[Asked]:
     """Make every planned call, data set by data set; end early where the function can answer no more."""
     asked = [Asked(target) for target in targets]
+    whole = bool(targets[0].exercise.parameters) or not any(target.is_tuple for target in targets)
 
     def put(place: Asked, name: str, *parameters: Any) -> Answer:
-        whole = place.target.is_map and place.target.exercise.judged_as is None
-        whole = whole or not any(isinstance(t.expected, Several) for t in targets)
         answer = ask(call, (*parameters, *place.target.arguments), whole=whole)
         setattr(place, name, answer)
         if isinstance(answer, Raised) and answer.fatal:

@@ -58,6 +58,11 @@ class Gated:
 def through_gates(asked: Sequence[Asked]) -> list[Gated]:
     """Hold the answers on all data sets to the gates."""
     gated = [_through(one) for one in asked]
+    fatal = next((error_gate(one.fatal) for one in asked if one.fatal is not None), None)
+    if fatal is not None:
+        for one, place in zip(gated, asked, strict=True):
+            if place.vector is None:
+                one.stopped = Gate(fatal.tier, "error.not_reached")
     repeat = next((g.stopped for g in gated if g.stopped is not None and g.stopped.tier == "not repeatable"), None)
     for one in gated:
         # What changes from call to call also changes with what else is in the array; that is not the point then.
@@ -71,7 +76,7 @@ def _through(asked: Asked) -> Gated:
     if asked.fatal is not None:
         gated.stopped = error_gate(asked.fatal)
     elif asked.vector is None:
-        gated.stopped = Gate("error", "error.not_reached")
+        return gated  # not reached
     elif target.raises:
         gated.answer = asked.vector
     elif target.exercise.parameters:
@@ -273,7 +278,12 @@ def _value_gates(asked: Asked, gated: Gated) -> None:
     gated.answer = answer
     if isinstance(answer, Raised):
         gated.stopped = error_gate(answer)
-    elif isinstance(answer, Unreadable) and answer.reason in ("parts", "ragged") and isinstance(target.expected, Numbers):
+    elif (
+        isinstance(answer, Unreadable)
+        and answer.reason in ("parts", "ragged")
+        and isinstance(target.expected, Numbers)
+        and not target.is_map
+    ):
         gated.stopped = Gate("shape", "answer.pieces", {"wanted": str(target.expected.values.shape)})
     elif isinstance(answer, Unreadable):
         gated.stopped = unreadable_gate(answer)

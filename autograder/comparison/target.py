@@ -79,6 +79,13 @@ class Target:
         """The reference's own answer where it is judged as a surface."""
         return self._guarded(self.exercise.reference, self.arguments, "the reference")
 
+    @cached_property
+    def is_tuple(self) -> bool:
+        """Whether the right answer has several parts."""
+        if self.exercise.judged_as is not None:
+            return isinstance(self.answer, tuple)
+        return isinstance(self.expected, Several)
+
     def at(self, points: Array) -> Array:
         """The right values at any parameters (N, n)."""
         found = self._map(self.exercise.reference, points, "the reference")

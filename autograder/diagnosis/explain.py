@@ -53,7 +53,9 @@ class Explanation:
         self.wrong = [f for f in shown if not f.right]
         self.troubles = next((f.gated.troubles for f in shown if f.gated.troubles), ())
         if not self.troubles:
-            self.troubles = next((f.gated.troubles for f in hidden if f.gated.troubles), ())
+            # What an exception says may hold the data that came in; of hidden data only the form is told.
+            unshown = next((f.gated.troubles for f in hidden if f.gated.troubles), ())
+            self.troubles = tuple(Trouble(t.form, "shape.some", t.facts) for t in unshown)
         self.worst = worst_finding(shown)
 
     def parts(self) -> Parts:
@@ -95,6 +97,12 @@ class Explanation:
         parts: Parts = [("right", say("right.shown")), ("wrong", say("wrong.hidden", data=say("hidden")))]
         if self.recognised is not None:
             return [*parts, *self._mistake()]
+        failed = next((f.gated.stopped for f in self.hidden if f.gated.stopped is not None), None)
+        if failed is not None and failed.key in ("error.timeout", "error.memory", "error.died"):
+            parts.append(("wrong", say(failed.key)))
+        elif failed is not None and failed.facts.get("exception"):
+            # Its message may hold what came in; the name of its class does not.
+            parts.append(("wrong", say("wrong.hidden_error", exception=failed.facts["exception"])))
         if len(names) < len(self.hidden):
             parts.append(("where", say("where.data", data=named(names))))
         return [*parts, ("look", say("look.hidden"))]

@@ -1,0 +1,234 @@
+"""Labelled pairs of surfaces: where the judge must place each, with no mistake listed that could name it.
+
+Each row is a right surface, an answer, and the tier at which the answer must end.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from autograder.exercise import exercise
+from autograder.judge import judge
+
+TURN = 2 * np.pi
+
+
+def stacked(x, y, z):
+    return np.stack(np.broadcast_arrays(x, y, z), axis=-1)
+
+
+def cylinder(u, w, r=2.0, h=5.0):
+    return stacked(r * np.cos(TURN * u), r * np.sin(TURN * u), h * w)
+
+
+def frustum(u, w, r1=3.0, r2=1.0, h=4.0):
+    rho = r1 + (r2 - r1) * w
+    return stacked(rho * np.cos(TURN * u), rho * np.sin(TURN * u), h * w)
+
+
+def sphere(u, w, r=2.0, south=-np.pi / 2, height=np.pi):
+    return stacked(
+        r * np.cos(south + height * u) * np.cos(TURN * w),
+        r * np.cos(south + height * u) * np.sin(TURN * w),
+        r * np.sin(south + height * u),
+    )
+
+
+def torus(u, w, big=3.0, r=1.0):
+    rho = big + r * np.cos(TURN * u)
+    return stacked(rho * np.cos(TURN * w), rho * np.sin(TURN * w), r * np.sin(TURN * u))
+
+
+def carried_circle(u, w):
+    return stacked(3 * np.cos(TURN * w) + np.cos(TURN * u), 3 * np.sin(TURN * w), np.sin(TURN * u))
+
+
+def blend(u, w, p00, p01, p10, p11):
+    u, w = (np.asarray(t)[..., None] for t in np.broadcast_arrays(u, w))
+    return (1 - u) * (1 - w) * p00 + (1 - u) * w * p01 + u * (1 - w) * p10 + u * w * p11
+
+
+A, B, C = np.array([1.0, 2, 0]), np.array([4.0, 1, 2]), np.array([0.0, 5, 3])
+QUAD = (np.array([0.0, 0, 0]), np.array([0.0, 3, 1]), np.array([4.0, 0, 0]), np.array([5.0, 4, 2]))
+
+
+def quad(u, w):
+    return blend(u, w, *QUAD)
+
+
+def triangle(u, w):
+    return blend(u, w, A, C, B, C)
+
+
+def square(u, w):
+    return stacked(u, w, 0 * u)
+
+
+def saddle(u, w):
+    return stacked(2 * u - 1, 2 * w - 1, (2 * u - 1) ** 2 - (2 * w - 1) ** 2)
+
+
+NET = np.array(
+    [
+        [[-2, 2, 2], [1, 2, -2], [-2, 7, 2], [-1, 14, -2]],
+        [[1, 0, -2], [5, 3, 0], [1, 9, 1], [3, 11, 0]],
+        [[5, 0, 0], [4, 4, 2], [8, 6, -2], [5, 13, -1]],
+        [[7, 1, 1], [11, 3, -2], [8, 9, -1], [7, 11, 2]],
+    ],
+    dtype=float,
+)
+BUMPED = NET.copy()
+BUMPED[1, 2] += [0.5, 0, 1]
+NOISY = NET + np.random.default_rng(5).normal(scale=0.3, size=NET.shape)
+
+
+def bezier(u, w, net=NET):
+    u, w = np.broadcast_arrays(u, w)
+
+    def bernstein(t):
+        return np.stack([math.comb(3, i) * t**i * (1 - t) ** (3 - i) for i in range(4)], axis=-1)
+
+    return np.einsum("...i,...j,ijk->...k", bernstein(np.asarray(u)), bernstein(np.asarray(w)), net)
+
+
+def turned(axis, degrees):
+    k = np.array(axis, dtype=float) / np.linalg.norm(axis)
+    cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
+    t = np.radians(degrees)
+    return np.eye(3) + np.sin(t) * cross + (1 - np.cos(t)) * cross @ cross
+
+
+def placed(surface, matrix=None, shift=(0.0, 0.0, 0.0), scale=1.0):
+    """The surface turned, scaled, then shifted."""
+    matrix = np.eye(3) if matrix is None else matrix
+    return lambda u, w: scale * surface(u, w) @ matrix.T + np.array(shift)
+
+
+def traced(surface, u_of, w_of=lambda u, w: w):
+    """The surface at other parameters."""
+    return lambda u, w: surface(u_of(u, w), w_of(u, w))
+
+
+def squared(u, w):
+    return u**2
+
+
+def bent(u, w):
+    return u + 0.1 * np.sin(np.pi * u) * w
+
+
+ODD = turned([1, 2, 3], 70)
+MIRROR = np.diag([1.0, 1.0, -1.0])
+
+PAIRS = [
+    ("cylinder, the same formula", cylinder, lambda u, w: cylinder(u, w), "identical"),
+    (
+        "cylinder, cosine as a shifted sine",
+        cylinder,
+        lambda u, w: stacked(2 * np.sin(TURN * u + np.pi / 2), 2 * np.sin(TURN * u), 5 * w),
+        "identical",
+    ),
+    ("cylinder, clockwise", cylinder, lambda u, w: cylinder(1 - u, w), "relabelled"),
+    ("cylinder, from the top", cylinder, lambda u, w: cylinder(u, 1 - w), "relabelled"),
+    ("cylinder, u and w exchanged", cylinder, lambda u, w: cylinder(w, u), "relabelled"),
+    ("cylinder, both backwards", cylinder, lambda u, w: cylinder(1 - u, 1 - w), "relabelled"),
+    ("cylinder, exchanged and one backwards", cylinder, lambda u, w: cylinder(w, 1 - u), "relabelled"),
+    ("cylinder, exchanged and both backwards", cylinder, lambda u, w: cylinder(1 - w, 1 - u), "relabelled"),
+    ("cylinder, starts on +y", cylinder, lambda u, w: cylinder((u + 0.25) % 1.0, w), "other start"),
+    ("cylinder, starts anywhere and runs clockwise", cylinder, lambda u, w: cylinder((0.37 - u) % 1.0, w), "other start"),
+    ("cylinder, 3.14 for π", cylinder, lambda u, w: stacked(2 * np.cos(6.28 * u), 2 * np.sin(6.28 * u), 5 * w), "close"),
+    ("cylinder, 22/7 for π", cylinder, lambda u, w: stacked(2 * np.cos(44 / 7 * u), 2 * np.sin(44 / 7 * u), 5 * w), "close"),
+    ("cylinder, float32", cylinder, lambda u, w: cylinder(u, w).astype(np.float32), "close"),
+    ("cylinder, u squared", cylinder, traced(cylinder, squared), "same set"),
+    ("cylinder, u squared and clockwise", cylinder, traced(cylinder, lambda u, w: 1 - u**2), "same set"),
+    ("cylinder, helical u lines", cylinder, traced(cylinder, lambda u, w: (u + w) % 1.0), "same set"),
+    ("cylinder, twice round", cylinder, traced(cylinder, lambda u, w: (2 * u) % 1.0), "covered"),
+    ("cylinder, degrees", cylinder, lambda u, w: stacked(2 * np.cos(360 * u), 2 * np.sin(360 * u), 5 * w), "covered"),
+    ("cylinder, half round", cylinder, traced(cylinder, lambda u, w: u / 2), "part"),
+    ("cylinder, 3.1 for π", cylinder, lambda u, w: stacked(2 * np.cos(6.2 * u), 2 * np.sin(6.2 * u), 5 * w), "part"),
+    ("cylinder, u as the angle", cylinder, lambda u, w: stacked(2 * np.cos(u), 2 * np.sin(u), 5 * w), "part"),
+    ("cylinder, half as high", cylinder, lambda u, w: cylinder(u, w / 2), "part"),
+    ("cylinder, w ignored", cylinder, lambda u, w: cylinder(u, 0 * w), "part"),
+    ("cylinder, one point", cylinder, lambda u, w: cylinder(0 * u, 0 * w), "part"),
+    ("cylinder, too tall", cylinder, lambda u, w: cylinder(u, w, 2.0, 6.0), "more"),
+    ("cylinder, other radius", cylinder, lambda u, w: cylinder(u, w, 2.5), "different"),
+    ("cylinder, other scale", cylinder, lambda u, w: 1.5 * cylinder(u, w), "moved"),
+    ("cylinder, axis x", cylinder, lambda u, w: np.roll(cylinder(u, w), 1, axis=-1), "moved"),
+    ("cylinder, hanging down", cylinder, lambda u, w: cylinder(u, w, 2.0, -5.0), "moved"),
+    ("cylinder, centred", cylinder, placed(cylinder, shift=(0, 0, -2.5)), "moved"),
+    ("cylinder, u squared and tilted", cylinder, placed(traced(cylinder, squared), ODD, (1, 0, 3)), "moved"),
+    ("cylinder for a frustum of its mean radius", frustum, lambda u, w: cylinder(u, w, 2.0, 4.0), "different"),
+    ("frustum, radii exchanged", frustum, lambda u, w: frustum(u, w, 1.0, 3.0), "moved"),
+    ("frustum, u squared and tilted", frustum, placed(traced(frustum, squared), ODD, (1, 0, 3)), "moved"),
+    ("frustum, sum of radii", frustum, lambda u, w: frustum(u, w, 3.0, 4.0), "different"),
+    ("sphere, north first", sphere, lambda u, w: sphere(1 - u, w), "relabelled"),
+    ("sphere, starts on +y", sphere, lambda u, w: sphere(u, (w + 0.25) % 1.0), "other start"),
+    ("sphere, whole circle turned", sphere, lambda u, w: sphere(u, w, height=TURN), "covered"),
+    ("sphere, upper half twice", sphere, lambda u, w: sphere(u, w, south=0.0), "part"),
+    ("sphere, axis tilted", sphere, placed(sphere, ODD), "same set"),
+    ("sphere, even heights", sphere, traced(sphere, lambda u, w: np.arcsin(2 * u - 1) / np.pi + 0.5), "same set"),
+    ("sphere, elsewhere", sphere, placed(sphere, shift=(1, 2, 3)), "moved"),
+    (
+        "sphere, radius not shrunk",
+        sphere,
+        lambda u, w: stacked(2 * np.cos(TURN * w), 2 * np.sin(TURN * w), 4 * u - 2),
+        "different",
+    ),
+    ("torus, tube half a turn later", torus, lambda u, w: torus((u + 0.5) % 1.0, w), "other start"),
+    ("torus, both starts elsewhere, exchanged", torus, lambda u, w: torus((w + 0.2) % 1.0, (u + 0.7) % 1.0), "other start"),
+    ("torus, half a tube", torus, lambda u, w: torus(u / 2, w), "part"),
+    ("torus, R read as the outer radius", torus, lambda u, w: torus(u, w, 2.0), "different"),
+    ("torus, circle carried along", torus, carried_circle, "different"),
+    ("circle carried along, turned", carried_circle, torus, "different"),
+    ("triangle, the whole parallelogram", triangle, lambda u, w: blend(u, w, A, C, B, B + C - A), "more"),
+    ("triangle, run from another corner", triangle, lambda u, w: blend(u, w, B, A, C, A), "same set"),
+    ("triangle, clamped", triangle, lambda u, w: blend(u, np.minimum(w, 1 - u), A, C, B, B + C - A), "covered"),
+    ("triangle, another triangle", triangle, lambda u, w: blend(u, w, A, C, B, 2 * C), "different"),
+    ("square, u squared", square, traced(square, squared), "same set"),
+    ("square, half of it", square, lambda u, w: square(u / 2, w), "part"),
+    ("square, upright", square, lambda u, w: stacked(u, 0 * u, w), "moved"),
+    ("square, bent and tilted", square, placed(traced(square, bent), ODD, (3, 2, 1)), "moved"),
+    (
+        "saddle, upside down is turned",
+        saddle,
+        lambda u, w: stacked(2 * u - 1, 2 * w - 1, (2 * w - 1) ** 2 - (2 * u - 1) ** 2),
+        "moved",
+    ),
+    ("saddle, exchanged", saddle, lambda u, w: saddle(w, u), "relabelled"),
+    ("saddle, steeper", saddle, lambda u, w: saddle(u, w) * [1, 1, 1.3], "different"),
+    ("quadrilateral, p01 and p10 exchanged", quad, lambda u, w: blend(u, w, QUAD[0], QUAD[2], QUAD[1], QUAD[3]), "relabelled"),
+    ("quadrilateral, corners round the loop", quad, lambda u, w: blend(u, w, QUAD[0], QUAD[3], QUAD[1], QUAD[2]), "different"),
+    (
+        "quadrilateral, plane through three corners",
+        quad,
+        lambda u, w: blend(u, w, QUAD[0], QUAD[1], QUAD[2], QUAD[1] + QUAD[2]),
+        "different",
+    ),
+    ("quadrilateral, counted twice", quad, lambda u, w: 2 * quad(u, w), "moved"),
+    ("Bezier, transposed", bezier, lambda u, w: bezier(u, w, NET.transpose(1, 0, 2)), "relabelled"),
+    ("Bezier, rows reversed", bezier, lambda u, w: bezier(u, w, NET[::-1]), "relabelled"),
+    ("Bezier, mirrored", bezier, placed(bezier, MIRROR), "moved"),
+    ("Bezier, turned and scaled", bezier, placed(bezier, ODD, (1, 2, 3), 0.5), "moved"),
+    ("Bezier, turned, scaled and transposed", bezier, lambda u, w: placed(bezier, ODD, (1, 2, 3), 0.5)(w, u), "moved"),
+    ("Bezier, bent", bezier, traced(bezier, bent), "same set"),
+    ("Bezier, bent and turned", bezier, placed(traced(bezier, bent), ODD, (1, 2, 3)), "moved"),
+    ("Bezier, bent and mirrored", bezier, placed(traced(bezier, bent), ODD @ MIRROR, (1, 2, 3)), "moved"),
+    ("Bezier, a quarter of it", bezier, lambda u, w: bezier(u / 2, w / 2), "part"),
+    ("Bezier, one control point off", bezier, lambda u, w: bezier(u, w, BUMPED), "different"),
+    ("Bezier, noise in the net", bezier, lambda u, w: bezier(u, w, NOISY), "different"),
+    ("a flat array", square, lambda u, w: np.asarray(u) + np.asarray(w), "shape"),
+    ("not a number at a corner", square, lambda u, w: square(u, w) * ((u + w) / (u + w))[..., None], "not finite"),
+]
+
+
+@pytest.mark.parametrize(("right", "answer", "tier"), [pair[1:] for pair in PAIRS], ids=[pair[0] for pair in PAIRS])
+def test_the_pair_is_placed(right, answer, tier):
+    def posed(u, w):
+        """Return the surface."""
+        return right(u, w)
+
+    posed = exercise(points=1, title="A surface", kind="surface")(posed)
+    posed.data(lambda rng: {})
+    verdict = judge(posed, answer)
+    assert verdict.tier == tier, verdict.message
