@@ -9,6 +9,7 @@ names classes only; nbgrader imports them when it needs them, and ``directrix gr
 
 from __future__ import annotations
 
+import importlib.util
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,18 @@ TEMPLATES = Path(__file__).with_name("templates")
 
 
 def configure(c: Any) -> None:
-    """Set what an nbgrader course needs to be graded by Directrix. Settings of the course that do not meet ours stay."""
+    """Set what an nbgrader course needs to be graded by Directrix; everything else in ``c`` stays as the course has it."""
     c.Autograde.sanitize_preprocessors = list(SANITIZE)
     c.Autograde.autograde_preprocessors = list(AUTOGRADE)
+    c.GenerateFeedback.exporter_class = "autograder.bridge.pages.Feedback"
+    c.GenerateFeedback.preprocessors = []
+    c.HTMLExporter.preprocessors = ["autograder.bridge.pages.Harmless"]
+    c.HTMLExporter.filters = {"markdown2html": "autograder.bridge.pages.markdown2html"}
+    c.HTMLExporter.extra_template_basedirs = [str(TEMPLATES), *_nbgrader_templates()]
+
+
+def _nbgrader_templates() -> list[str]:
+    """Where nbgrader keeps formgrader's templates, found without importing it."""
+    found = importlib.util.find_spec("nbgrader")
+    places = found.submodule_search_locations if found is not None else None
+    return [str(Path(place, "server_extensions", "formgrader", "templates")) for place in places or ()]
