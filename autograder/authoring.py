@@ -73,7 +73,7 @@ def release(course: Path, name: str) -> Path:
     Returns the folder ``release/NAME``. Raises CourseError with nbgrader's own words where it refuses.
     """
     from nbgrader.apps import NbGraderAPI  # slow to import, and only needed here
-    from traitlets.config import PyFileConfigLoader
+    from traitlets.config.loader import PyFileConfigLoader
 
     if not (course / "nbgrader_config.py").is_file():
         raise CourseError(f"{course} is not a course: it has no nbgrader_config.py; make one with `directrix new FOLDER`")
@@ -100,7 +100,7 @@ def workbook(folder: Path) -> list[Path]:
         target = folder / path
         if not target.exists():
             target.parent.mkdir(parents=True, exist_ok=True)
-            nbformat.write(notebook, target)
+            nbformat.write(notebook, target)  # type: ignore[no-untyped-call]
             written.append(target)
     return written
 

@@ -15,6 +15,10 @@ from autograder import authoring
 from autograder.cli.options import AsJson, CourseOption, console_for
 from autograder.errors import CourseError
 
+IMPATIENT = """
+c.Execute.timeout = 5  # seconds of computing for one cell: the sample class has loops that never end
+"""
+
 
 def new(
     course: Annotated[Path, typer.Argument(help="The new folder.")],
@@ -82,6 +86,8 @@ def demo(
         authoring.remove_course(directory)
     console.rule("a course, its released notebooks, and a sample class")
     assignments = authoring.new_course(directory, tuple(assignment or ()))
+    with (directory / "nbgrader_config.py").open("a") as config:
+        config.write(IMPATIENT)
     course = fleet.Course(directory)
     summary: dict[str, Any] = {}
     problems = 0

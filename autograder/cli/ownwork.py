@@ -50,7 +50,7 @@ class OwnWork:
 def run(path: Path, *, timeout: int) -> OwnWork:
     """Execute a notebook and read the outputs of its ``check(...)`` cells. The file itself is left as it is."""
     try:
-        notebook = nbformat.read(path, as_version=4)
+        notebook = nbformat.read(path, as_version=4)  # type: ignore[no-untyped-call]
     except FileNotFoundError:
         raise SubmissionError(f"no such notebook: {path}") from None
     except Exception as error:
