@@ -41,6 +41,7 @@ def mathml(latex: str, *, block: bool) -> str:
     try:
         tree = ElementTree.fromstring(convert(source, display="block" if block else "inline"))
         _check(tree)
+        _space_functions(tree)
     except Exception:  # whatever a formula does to the converter, the page goes on
         return shown
     ElementTree.register_namespace("", NAMESPACE)
@@ -54,3 +55,29 @@ def _check(tree: ElementTree.Element) -> None:
             raise ValueError(f"{element.tag} has no place in a formula")
         for attribute in [key for key in element.attrib if key not in ATTRIBUTES]:
             del element.attrib[attribute]
+
+
+def _space_functions(tree: ElementTree.Element) -> None:
+    """Put the thin spaces of TeX round names such as cos, which the converter leaves out."""
+    for parent in list(tree.iter(f"{{{NAMESPACE}}}mrow")) + [tree]:
+        spaced: list[ElementTree.Element] = []
+        for child in parent:
+            if spaced and _is_function(spaced[-1]) and not _is_operator(child):
+                spaced.append(_thin_space())
+            if spaced and _is_function(child) and not _is_operator(spaced[-1]) and spaced[-1].tag != _thin_space().tag:
+                spaced.append(_thin_space())
+            spaced.append(child)
+        parent[:] = spaced
+
+
+def _is_function(element: ElementTree.Element) -> bool:
+    named = element[0] if len(element) and element.tag in (f"{{{NAMESPACE}}}msup", f"{{{NAMESPACE}}}msub") else element
+    return named.tag == f"{{{NAMESPACE}}}mi" and (named.text or "").isascii() and len(named.text or "") > 1
+
+
+def _is_operator(element: ElementTree.Element) -> bool:
+    return element.tag == f"{{{NAMESPACE}}}mo"
+
+
+def _thin_space() -> ElementTree.Element:
+    return ElementTree.Element(f"{{{NAMESPACE}}}mspace", width="0.167em")

@@ -1,0 +1,161 @@
+"""The class at a glance: plain data, and a table for the terminal.
+
+data = report.summary(graded)       # numbers and names, for programs
+console.print(report.table(graded)) # the same for people
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from rich.console import Group
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from autograder.fleet import CellReport, GradeReport, StudentReport
+
+MOST_MISTAKES = 3
+STATUS = {
+    "graded": ("graded", ""),
+    "unchanged": ("unchanged", "dim"),
+    "broken": ("could not be read", "bold red"),
+    "empty": ("nothing handed in", "yellow"),
+    "failed": ("not graded", "bold red"),
+}
+
+
+@dataclass(frozen=True)
+class Part:
+    """How the class did on one graded cell: how many tried, had it all, had some, had none, wait for a person; the mean share."""
+
+    notebook: str
+    name: str
+    title: str
+    available: float
+    full: int
+    some: int
+    none: int
+    waiting: int
+    mean: float | None
+    mistakes: tuple[tuple[str, int], ...] = ()
+
+
+def parts(graded: GradeReport) -> tuple[Part, ...]:
+    """The graded cells of an assignment in their order, over all submissions that could be read."""
+    cells: dict[tuple[str, str], list[CellReport]] = {}
+    for student in graded.students:
+        if student.status in ("graded", "unchanged"):
+            for cell in student.cells:
+                cells.setdefault((cell.notebook, cell.name), []).append(cell)
+    return tuple(_part(found, graded) for found in cells.values())
+
+
+def _part(cells: list[CellReport], graded: GradeReport) -> Part:
+    first = cells[0]
+    points = [cell.points for cell in cells if cell.points is not None]
+    full = sum(value >= first.available for value in points)
+    none = sum(value <= 0 < first.available for value in points)
+    mistakes = Counter(cell.mistake for cell in cells if cell.mistake)
+    return Part(
+        first.notebook, first.name, graded.titles.get(first.exercise or "", "") or first.name, first.available,
+        full, len(points) - full - none, none, len(cells) - len(points),
+        sum(points) / (len(points) * first.available) if points and first.available else None,
+        tuple(sorted(mistakes.items(), key=lambda pair: (-pair[1], pair[0]))),
+    )  # fmt: skip
+
+
+def summary(graded: GradeReport) -> dict[str, Any]:
+    """The class in numbers: parts, mistakes, and who waits for what. Plain data."""
+    scores = [student.score - student.penalty for student in graded.students if student.status in ("graded", "unchanged")]
+    return {
+        "course": graded.course,
+        "assignment": graded.assignment,
+        "level": graded.level,
+        "submissions": len(graded.students),
+        "mean": sum(scores) / len(scores) if scores else None,
+        "available": graded.available,
+        "parts": [asdict(part) for part in parts(graded)],
+        "looks": {student.student: student.looks for student in graded.students if student.looks},
+        "broken": list(graded.broken),
+        "faults": list(graded.faults),
+    }
+
+
+def table(graded: GradeReport) -> Group:
+    """The class as a table of students and a table of what it found hard."""
+    shown: list[Any] = [_students(graded)]
+    found = parts(graded)
+    if any(part.mistakes or part.mean is not None for part in found):
+        shown += ["", _class(found)]
+    for heading, lines in (("Could not be read", graded.broken), ("The grader's own failures", graded.faults)):
+        if lines:
+            shown += ["", Text(heading, style="bold red"), *(Padding(Text(_plain(line)), (0, 0, 0, 2)) for line in lines)]
+    shown.append(Text(_footer(graded), style="dim"))
+    return Group(*shown)
+
+
+def _students(graded: GradeReport) -> Table:
+    made = Table(title=f"{graded.assignment}: {len(graded.students)} submissions", title_justify="left", header_style="bold")
+    made.add_column("student", overflow="fold")
+    columns = list(dict.fromkeys((cell.notebook, cell.name) for student in graded.students for cell in student.cells))
+    for _, name in columns:
+        made.add_column(name.removeprefix("check_"), justify="right", overflow="fold")
+    made.add_column("points", justify="right")
+    made.add_column("", overflow="fold")
+    for student in graded.students:
+        cells = {(cell.notebook, cell.name): cell for cell in student.cells}
+        made.add_row(
+            Text(_plain(student.student)),
+            *(_points(cells.get(column)) for column in columns),
+            f"{student.score - student.penalty:g} / {graded.available:g}",
+            _remark(student),
+        )
+    return made
+
+
+def _points(cell: CellReport | None) -> Text:
+    if cell is None:
+        return Text("")
+    if cell.points is None:
+        return Text("?", style="yellow")
+    style = "green" if cell.points >= cell.available else ("" if cell.points > 0 else "red")
+    return Text(f"{cell.points:g}{'?' if cell.look else ''}", style=style)
+
+
+def _remark(student: StudentReport) -> Text:
+    word, style = STATUS[student.status]
+    said = [] if student.status == "graded" else [word]
+    if student.penalty:
+        said.append(f"late: -{student.penalty:g}")
+    if student.looks:
+        said.append(f"{student.looks} to look at")
+    slips = list(dict.fromkeys(cell.mistake for cell in student.cells if cell.mistake))
+    said += slips[:MOST_MISTAKES] + (["..."] if len(slips) > MOST_MISTAKES else [])
+    return Text(", ".join(said), style=style)
+
+
+def _class(found: tuple[Part, ...]) -> Table:
+    made = Table(title="What the class found hard", title_justify="left", header_style="bold")
+    for heading in ("part", "mean", "all", "some", "none", "open", "mistakes that were named"):
+        made.add_column(
+            heading, justify="left" if heading in ("part", "mistakes that were named") else "right", overflow="fold"
+        )
+    for part in sorted(found, key=lambda part: part.mean if part.mean is not None else 2.0):
+        mean = "" if part.mean is None else f"{100 * part.mean:.0f} %"
+        named = ", ".join(f"{name} ({count})" for name, count in part.mistakes)
+        made.add_row(part.title, mean, str(part.full), str(part.some), str(part.none), str(part.waiting or ""), named)
+    return made
+
+
+def _footer(graded: GradeReport) -> str:
+    done = len(graded.graded)
+    speed = f", {done / graded.seconds:.1f} a second" if done and graded.seconds > 0 else ""
+    return f"{done} graded in {graded.seconds:.1f} s{speed}; sandbox level {graded.level}; '?' waits for a person"
+
+
+def _plain(text: str) -> str:
+    """Names and messages that came from outside cannot steer the terminal."""
+    return "".join(letter if letter.isprintable() else "�" for letter in text)
