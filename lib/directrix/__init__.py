@@ -42,6 +42,11 @@ _NAMES = {
     "coons_twists": "surfaces.hermite",
     # implicit
     "Quadric": "quadric",
+    # solids
+    "BSplineHyperpatch": "solids.spline",
+    "BezierHyperpatch": "solids.polynomial",
+    "HermiteHyperpatch": "solids.polynomial",
+    "NurbsHyperpatch": "solids.spline",
     # inspection
     "conicity": "inspection",
     "cylindricity": "inspection",

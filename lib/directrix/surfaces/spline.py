@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from math import comb
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +20,7 @@ from directrix.basis import clamped, cox_de_boor, on_knots
 from directrix.checks import Array
 from directrix.curves.rational import lift
 from directrix.knots import Knots, KnotVector, knot_vector
+from directrix.surfaces.rational import cartesian, lower
 from directrix.surfaces.surface import Orders, Surface
 from directrix.surfaces.tensor import on_grid, planes, window
 from directrix.transform import Transform
@@ -71,21 +71,21 @@ class SplinePatch(Surface):
 
     @cached_property
     def _rows(self) -> tuple[BSpline, BSpline]:
-        return _compiled_row(self.knot_vector_u), _compiled_row(self.knot_vector_w)
+        return compiled_row(self.knot_vector_u), compiled_row(self.knot_vector_w)
 
     @cached_property
     def _compiled(self) -> NdBSpline:
         from scipy.interpolate import NdBSpline
 
-        (first_u, knots_u), (first_w, knots_w) = (_needed(v) for v in (self.knot_vector_u, self.knot_vector_w))
+        (first_u, knots_u), (first_w, knots_w) = (needed(v) for v in (self.knot_vector_u, self.knot_vector_w))
         m, n = len(knots_u) - self.k, len(knots_w) - self.l
         net = np.ascontiguousarray(self._blended[first_u : first_u + m, first_w : first_w + n])
         return NdBSpline((knots_u, knots_w), net, self.degrees)
 
     def _grid(self, u: Array, w: Array, orders: Orders) -> dict[tuple[int, int], Array]:
         """Derivatives of the blended coefficients on the grid of u (p,) and w (q,): planes (d, p, q)."""
-        rows = {nu: _row(self._rows[0], self.knot_vector_u, u, nu) for nu in {nu for nu, _ in orders}}
-        columns = {nw: _row(self._rows[1], self.knot_vector_w, w, nw) for nw in {nw for _, nw in orders}}
+        rows = {nu: row_of(self._rows[0], self.knot_vector_u, u, nu) for nu in {nu for nu, _ in orders}}
+        columns = {nw: row_of(self._rows[1], self.knot_vector_w, w, nw) for nw in {nw for _, nw in orders}}
         return dict(zip(orders, on_grid(self._planes, rows, columns, orders), strict=True))
 
     def _scattered(self, u: Array, w: Array, orders: Orders) -> dict[tuple[int, int], Array]:
@@ -98,7 +98,7 @@ class SplinePatch(Surface):
             if nu >= self.k or nw >= self.l:
                 value = np.zeros((*shape, self._blended.shape[2]))
             else:
-                scale = _speed(self.knot_vector_u) ** nu * _speed(self.knot_vector_w) ** nw
+                scale = speed(self.knot_vector_u) ** nu * speed(self.knot_vector_w) ** nw
                 value = self._compiled(t, nu=(nu, nw))
                 value = value * scale if scale != 1 else value
             found[nu, nw] = np.moveaxis(value, -1, 0)
@@ -235,10 +235,10 @@ class NurbsPatch(SplinePatch):
         return lift(self.control_net, self.weights)
 
     def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        return _cartesian(self._scattered(u, w, _lower(orders)), orders)
+        return cartesian(self._scattered(u, w, lower(orders)), orders)
 
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        return _cartesian(self._grid(u, w, _lower(orders)), orders)
+        return cartesian(self._grid(u, w, lower(orders)), orders)
 
     def with_net(
         self, net: Array, weights: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None
@@ -319,53 +319,30 @@ def spline_part(knots: KnotVector, points: Array, u0: float, u1: float) -> tuple
     return part, KnotVector(values, knots.order)
 
 
-def _speed(knots: KnotVector) -> float:
+def speed(knots: KnotVector) -> float:
     """ds/du: how much faster the knot parameter runs than u."""
     return knots.end - knots.start
 
 
-def _needed(knots: KnotVector) -> tuple[int, Array]:
+def needed(knots: KnotVector) -> tuple[int, Array]:
     """First function and knots of those functions whose support reaches into the domain; scipy wants no others."""
     t, k = knots.values, knots.order
     inside = [i for i in range(knots.count) if t[i + k] > knots.start and t[i] < knots.end]
     return inside[0], t[inside[0] : inside[-1] + k + 1]
 
 
-def _compiled_row(knots: KnotVector) -> BSpline:
+def compiled_row(knots: KnotVector) -> BSpline:
     """All basis functions of a knot vector at once, as scipy's compiled B-spline with the identity for coefficients."""
     from scipy.interpolate import BSpline
 
-    first, t = _needed(knots)
+    first, t = needed(knots)
     count = len(t) - knots.order
     return BSpline.construct_fast(t, np.eye(count, knots.count, first), knots.degree, extrapolate=True)
 
 
-def _row(compiled: BSpline, knots: KnotVector, u: Array, order: int) -> Array:
+def row_of(compiled: BSpline, knots: KnotVector, u: Array, order: int) -> Array:
     """Values, or derivatives by u, of all basis functions at u (p,): shape (p, m)."""
     if order >= knots.order:
         return np.zeros((len(u), knots.count))
     value = compiled(knots.stretch(u), order)
-    return np.asarray(value * _speed(knots) ** order) if order else np.asarray(value)
-
-
-def _lower(orders: Orders) -> list[tuple[int, int]]:
-    """All orders that the quotient rule needs."""
-    return sorted({(i, j) for nu, nw in orders for i in range(nu + 1) for j in range(nw + 1)})
-
-
-def _cartesian(parts: dict[tuple[int, int], Array], orders: Orders) -> list[Array]:
-    """Derivatives of A / h from those of (A, h), component planes (4, ...), as arrays (..., 3).
-
-    S^(k,l) = (A^(k,l) - Σ C(k,i) C(l,j) h^(i,j) S^(k-i,l-j)) / h, the sum over all (i, j) != (0, 0)
-    (Piegl & Tiller, The NURBS Book, 2nd ed., equation 4.20).
-    """
-    inverse, done = 1.0 / parts[0, 0][3], {}
-    scratch = np.empty(parts[0, 0][:3].shape) if len(parts) > 1 else inverse
-    for (k, l), part in sorted(parts.items()):
-        value = part[:3]  # worked on in place: fresh memory costs more here than arithmetic
-        for i in range(k + 1):
-            for j in range(l + 1):
-                if (i, j) != (0, 0):
-                    value -= np.multiply(done[k - i, l - j], comb(k, i) * comb(l, j) * parts[i, j][3], out=scratch)
-        done[k, l] = np.multiply(value, inverse, out=value)
-    return [np.moveaxis(done[order], 0, -1) for order in orders]
+    return np.asarray(value * speed(knots) ** order) if order else np.asarray(value)

@@ -1,0 +1,1 @@
+"""Solids: three parameters u, v, w in [0, 1], a bounded piece of space with six boundary patches."""
