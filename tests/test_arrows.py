@@ -46,12 +46,14 @@ AUTOGRADER = {
     "feedback": ("course",),
     "bridge": ("feedback",),
     "fleet": ("bridge",),
+    "authoring": ("course",),
     "demo": ("catalogue", "notebook"),
     "report": ("fleet",),
-    "cli": ("report", "doctor", "demo", "checking"),
+    "cli": ("report", "doctor", "demo", "authoring", "checking"),
+    "__main__": ("cli",),
 }
 # Which rooms of the library the autograder's rooms may see: cards draw; everything else judges callables and arrays.
-DRAWS = {"card", "checking", "feedback"}
+DRAWS = {"card", "checking", "feedback", "bridge"}
 
 
 def allowed(rooms: dict[str, tuple[str, ...]], room: str) -> set[str]:
