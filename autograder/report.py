@@ -29,7 +29,7 @@ STATUS = {
 
 @dataclass(frozen=True)
 class Part:
-    """How the class did on one graded cell: how many tried, had it all, had some, had none, wait for a person; the mean share."""
+    """How the class did on one graded cell: how many have all points, some, none, wait for a person; the mean share."""
 
     notebook: str
     name: str
@@ -139,10 +139,10 @@ def _remark(student: StudentReport) -> Text:
 
 def _class(found: tuple[Part, ...]) -> Table:
     made = Table(title="What the class found hard", title_justify="left", header_style="bold")
-    for heading in ("part", "mean", "all", "some", "none", "open", "mistakes that were named"):
-        made.add_column(
-            heading, justify="left" if heading in ("part", "mistakes that were named") else "right", overflow="fold"
-        )
+    made.add_column("part", overflow="fold")
+    for heading in ("mean", "all", "some", "none", "open"):
+        made.add_column(heading, justify="right")
+    made.add_column("mistakes that were named", overflow="fold")
     for part in sorted(found, key=lambda part: part.mean if part.mean is not None else 2.0):
         mean = "" if part.mean is None else f"{100 * part.mean:.0f} %"
         named = ", ".join(f"{name} ({count})" for name, count in part.mistakes)

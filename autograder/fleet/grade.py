@@ -12,6 +12,7 @@ import datetime
 import hashlib
 import logging
 import os
+import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -30,6 +31,8 @@ from autograder.notebook.session import needs, opened
 from autograder.notebook.submission import read_file, read_folder
 
 log = logging.getLogger(__name__)
+# formgrader writes ids into its pages as they are
+PLAIN_ID = re.compile(r"[^\x00-\x1f\x7f<>&\"'`\\\ud800-\udfff]{1,128}")
 BATCH = 50
 BATCH_SECONDS = 2.0
 Progress = Callable[[int, int, str], None]
@@ -113,7 +116,9 @@ class _Run:
         known = set(self.book.students()) if not self.course.create_students else None
         todo: dict[str, Path] = {}
         for student, folder in submissions.items():
-            if known is not None and student not in known:
+            if not PLAIN_ID.fullmatch(student):
+                self._settled(StudentReport(student, "broken", broken=("the name of its folder is no student's id",)))
+            elif known is not None and student not in known:
                 self._settled(StudentReport(student, "failed", faults=("no such student in the gradebook",)))
             elif not force and (unchanged := self._unchanged(student, folder)) is not None:
                 self._settled(unchanged)
