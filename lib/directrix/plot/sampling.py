@@ -66,6 +66,8 @@ def sample(f: Callable[..., Any], *parameters: Array) -> Array:
         answer = f(*mesh)
     letters = LETTERS[len(parameters)]
     try:
+        if answer is None:  # which numpy would read as NaN
+            raise TypeError
         points = np.asarray(answer, dtype=float)
     except (TypeError, ValueError):
         raise ShapeError(f"a picture needs points (x, y, z) for every {_listed(letters)}; got {_described(answer)}") from None

@@ -25,15 +25,29 @@
     if (Array.isArray(meta.link) && meta.link.length > 1) link(plot, meta.link.map(String));
   }
 
+  function alike(a, b) {
+    return ["eye", "center", "up"].every(function (part) {
+      return ["x", "y", "z"].every(function (axis) { return Math.abs(a[part][axis] - b[part][axis]) < 1e-9; });
+    });
+  }
+
   function link(plot, scenes) {
     var busy = false, waiting = null;
     function follow(change) {
       if (!change) return;
       for (var i = 0; i < scenes.length; i++) {
         var camera = change[scenes[i] + ".camera"];
-        if (camera && !busy) { waiting = camera; }
+        if (camera && !busy && differs(camera)) waiting = camera;
       }
       if (waiting && !busy) { busy = true; requestAnimationFrame(turn); }
+    }
+    function differs(camera) {
+      // From a scene that stands so already there is nothing to learn: at a turned wheel plotly.js 4 tells the camera of before,
+      // and setting that would undo the zoom.
+      return scenes.some(function (scene) {
+        var known = plot._fullLayout && plot._fullLayout[scene];
+        return !known || !alike(known.camera, camera);
+      });
     }
     function turn() {
       var camera = waiting, update = {};
@@ -49,7 +63,7 @@
         var known = plot._fullLayout && plot._fullLayout[scenes[i]], scene = known && known._scene;
         if (!scene || !scene.getCamera) return;
         var now = scene.getCamera(), was = known.camera;
-        if (["x", "y", "z"].some(function (a) { return Math.abs(now.eye[a] - was.eye[a]) > 1e-9; })) {
+        if (!alike(now, was)) {
           var change = {};
           change[scenes[i] + ".camera"] = now;
           follow(change);

@@ -1,0 +1,156 @@
+"""A static page in Chromium without a network: hover, linked cameras, words for the picture, contexts that are given back."""
+
+import re
+
+import numpy as np
+import pytest
+from directrix.plot import compare, page, view
+
+pytestmark = pytest.mark.browser
+SCENES = "() => ['scene', 'scene2'].map(s => document.querySelector('.js-plotly-plot')._fullLayout[s]._scene.getCamera().eye)"
+
+
+def document(*figures, gap=0):
+    body = f'<div style="height:{gap}px"></div>'.join(page.fragment(figure) for figure in figures)
+    return f"<!doctype html><html><head><meta charset='utf-8'>{page.head()}</head><body style='margin:0'>{body}</body></html>"
+
+
+@pytest.fixture(scope="module")
+def browser(chromium):
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def opened(browser, tmp_path):
+    """Opens a document; any request to a network, and any error of a script, fails the test."""
+    pages = []
+
+    def show(html):
+        (tmp_path / "page.html").write_text(html, "utf-8")
+        shown = browser.new_page(viewport={"width": 1000, "height": 700})
+        shown.troubles = []
+        shown.on("pageerror", lambda error: shown.troubles.append(str(error)))
+        shown.on("request", lambda r: None if r.url.startswith(("file:", "data:", "blob:")) else shown.troubles.append(r.url))
+        pages.append(shown)
+        shown.goto((tmp_path / "page.html").as_uri())
+        shown.wait_for_selector(".gl-container canvas", timeout=30_000)
+        shown.wait_for_timeout(700)
+        return shown
+
+    yield show
+    for shown in pages:
+        assert shown.troubles == []
+        shown.close()
+
+
+@pytest.fixture(scope="module")
+def two():
+    t = np.linspace(0, 1, 17)
+    U, W = np.meshgrid(t, t, indexing="ij")
+    return compare([t, t], np.dstack([U, W, U * W]), np.dstack([U, W, U * W * W]))
+
+
+def eyes(shown):
+    return [tuple(round(eye[axis], 6) for axis in "xyz") for eye in shown.evaluate(SCENES)]
+
+
+def test_hover_tells_the_parameters_of_the_point_under_the_mouse(opened):
+    """On (u, w, 0) the (u, w) that is shown must be the (x, y) that is shown: plotly.js reads customdata transposed."""
+    shown = opened(document(view(lambda u, w: np.stack(np.broadcast_arrays(3 * u, w, 0 * u * w), axis=-1), samples=31)))
+    seen = []
+    for x, y in ((470, 200), (560, 230), (520, 215), (430, 180)):
+        shown.mouse.move(x, y)
+        shown.wait_for_timeout(350)
+        text = shown.evaluate("() => [...document.querySelectorAll('.hovertext')].map(t => t.textContent).join(' ')")
+        found = re.search(r"u = ([\d.]+), w = ([\d.]+).*\(x, y, z\) = \(([\d.]+), ([\d.]+),", text)
+        if found:
+            seen.append(tuple(map(float, found.groups())))
+    assert len(seen) >= 2
+    assert any(abs(u - w) > 0.1 for u, w, *_ in seen)
+    for u, w, x, y in seen:
+        assert (x / 3, y) == pytest.approx((u, w), abs=2e-3)
+
+
+@pytest.mark.parametrize("start", [250, 690])
+def test_dragging_one_scene_turns_the_other_with_it(opened, two, start):
+    """While the mouse moves, and to the same camera in the end, from either side."""
+    shown = opened(document(two))
+    before = eyes(shown)
+    assert before[0] == before[1]
+    shown.mouse.move(start, 200)
+    shown.mouse.down()
+    for step in range(8):
+        shown.mouse.move(start + 9 * step, 200 + 4 * step)
+        shown.wait_for_timeout(60)
+    shown.wait_for_timeout(200)
+    during = eyes(shown)
+    assert np.linalg.norm(np.subtract(during[0], before[0])) > 0.1
+    assert np.linalg.norm(np.subtract(during[1], before[1])) > 0.1
+    shown.mouse.up()
+    shown.wait_for_timeout(600)
+    after = eyes(shown)
+    assert after[0] == after[1] != before[0]
+
+
+def test_the_wheel_zooms_both(opened, two):
+    """plotly.js tells of a wheel before it zooms, so the scenes themselves are asked afterwards."""
+    shown = opened(document(two))
+    before = eyes(shown)
+    shown.mouse.move(690, 200)
+    shown.mouse.wheel(0, 240)
+    shown.wait_for_timeout(1500)
+    after = eyes(shown)
+    assert after[0] == pytest.approx(after[1], abs=1e-6)
+    assert np.linalg.norm(after[0]) > 1.1 * np.linalg.norm(before[0])
+
+
+def test_a_button_turns_both_without_our_script(opened, two):
+    """In a page (or a Lab) that runs none of our scripts the views are still linked."""
+    html = document(two)
+    linking = "if (Array.isArray(meta.link) && meta.link.length > 1) link(plot, meta.link.map(String));"
+    assert linking in html
+    shown = opened(html.replace(linking, ""))
+    shown.locator(".updatemenu-button", has_text="from +z").click()
+    shown.wait_for_timeout(600)
+    left, right = eyes(shown)
+    assert left == right
+    assert left[2] > 1.5 > abs(left[0]) + abs(left[1])
+
+
+def test_a_picture_has_words(opened, two):
+    """role=img and a label, on the holder and on what plotly draws."""
+    shown = opened(document(two))
+    labels = shown.evaluate("() => [...document.querySelectorAll('[role=img]')].map(e => e.getAttribute('aria-label'))")
+    assert len(labels) == 2
+    assert all(label.startswith("Two 3-D scenes on the same axes") for label in labels)
+
+
+def test_figures_far_away_give_their_contexts_back(opened, two):
+    """Ten comparisons are twenty scenes, more than a browser keeps: all are drawn in turn, few at a time, none is lost."""
+    shown = opened(document(*[two] * 10, gap=900))
+    most = 0
+    for place in range(10):
+        shown.evaluate("i => document.querySelectorAll('.directrix-figure')[i].scrollIntoView()", place)
+        shown.wait_for_function(
+            "i => document.querySelectorAll('.directrix-figure')[i].querySelector('.gl-container canvas')",
+            arg=place,
+            timeout=20_000,
+        )
+        shown.wait_for_timeout(150)
+        most = max(most, shown.locator(".js-plotly-plot .gl-container canvas").count())
+    assert 2 <= most <= 14
+
+
+def test_hostile_words_stay_words(opened):
+    """A name that tries to leave its element, or to be a script, is shown and not run."""
+    evil = "</script><script>window.broken = 1</script><img src=x onerror='window.broken = 1'>"
+    figure = view(lambda u: np.stack([u, u, u], axis=-1), title=evil, curves={evil: (0, 0, 0)})
+    figure.layout.meta["alt"] = evil
+    shown = opened(document(figure))
+    assert shown.evaluate("() => window.broken === undefined")
+    assert shown.evaluate("() => document.querySelectorAll('img').length") == 0

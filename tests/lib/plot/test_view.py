@@ -1,0 +1,171 @@
+"""view: what stands in a figure, and that its scale, colours and hover are right."""
+
+import subprocess
+import sys
+
+import directrix as dx
+import numpy as np
+import pytest
+from directrix.errors import GeometryError, ShapeError
+from directrix.plot import palette, view
+
+
+def named(figure, name):
+    return [trace for trace in figure.data if trace.name == name]
+
+
+def test_axes_have_one_scale(tube):
+    """The ratio of the axes is that of their ranges, so a circle looks round."""
+    scene = view(tube).layout.scene
+    ranges = np.array([np.ptp(scene[f"{axis}axis"].range) for axis in "xyz"])
+    ratio = np.array([scene.aspectratio[axis] for axis in "xyz"])
+    assert scene.aspectmode == "manual"
+    np.testing.assert_allclose(ratio / ratio[0], ranges / ranges[0], rtol=1e-12)
+    assert scene.xaxis.range[0] < -2 < 2 < scene.xaxis.range[1]
+
+
+def test_hover_data_are_transposed_for_plotly(saddle):
+    """customdata[j][i] holds (u_i, w_j): plotly.js looks them up with rows and columns exchanged."""
+    surface = view(saddle, samples=5).data[0]
+    assert surface.customdata.shape == (5, 5, 2)
+    assert surface.customdata[1, 3].tolist() == [0.75, 0.25]
+    assert (surface.x[3, 1], surface.y[3, 1]) == (0.75, 0.25)
+
+
+def test_lines_along_u_hold_w_and_carry_the_colour_of_u(saddle):
+    """On every blue line y = w is constant, on every orange one x = u."""
+    figure = view(saddle, samples=33)
+    for colour, held in ((palette.U, "y"), (palette.W, "x")):
+        lines = [
+            trace for trace in figure.data if trace.type == "scatter3d" and trace.line.color == colour and trace.mode == "lines"
+        ]
+        assert lines
+        for trace in lines:
+            values, running = np.asarray(trace[held]), np.asarray(trace["x" if held == "y" else "y"])
+            pieces = np.split(np.arange(len(values)), np.flatnonzero(np.isnan(values)))
+            assert all(np.nanstd(values[piece]) < 5e-3 < np.nanstd(running[piece]) for piece in pieces if len(piece) > 2)
+
+
+def test_lines_lie_at_eighths(saddle):
+    """With 65 samples the inner lines are at w = 1/8 ... 7/8, on both sides of the surface."""
+    inner = next(trace for trace in view(saddle).data if trace.name == "along u" and trace.line.width < 2)
+    at = np.unique(np.asarray(inner.y, dtype=float)[~np.isnan(inner.y)])
+    assert set(np.round(at * 8)) == set(range(1, 8))
+    assert (np.abs(at * 8 - np.round(at * 8)) < 0.03).all()  # the lift
+
+
+def test_one_line_a_range_draws_the_edges_only(saddle):
+    """lines=1 leaves the inner lines out."""
+    assert {trace.line.width for trace in named(view(saddle, lines=1), "along u")} == {5}
+
+
+def test_net_shows_the_index_of_each_point(saddle):
+    """Control points tell P[i, j]."""
+    net = np.arange(24.0).reshape(2, 4, 3)
+    dots = named(view(saddle, net=net), "control points")[0]
+    assert list(dots.text[:5]) == ["P[0, 0]", "P[0, 1]", "P[0, 2]", "P[0, 3]", "P[1, 0]"]
+    with pytest.raises(ShapeError, match=r"net must have shape \(m, n, 3\).*got \(4, 2\)"):
+        view(saddle, net=np.zeros((4, 2)))
+
+
+def test_the_picture_grows_to_hold_the_net(saddle):
+    """A control point far above the surface is inside the axes."""
+    net = np.array([[[0, 0, 0], [0, 1, 9.0]], [[1, 0, 0], [1, 1, 0]]])
+    assert view(saddle, net=net).layout.scene.zaxis.range[1] > 9
+
+
+def test_normals_are_those_of_the_surface():
+    """A form with .normal is asked; the needles of a sphere of the library point inwards."""
+    needles = named(view(dx.Sphere(2.0), normals=True), "normals")[0]
+    points = np.stack([needles.x, needles.y, needles.z], axis=-1)
+    start, end = points[::3], points[1::3]
+    assert len(start) >= 49
+    assert (np.linalg.norm(end, axis=1) < np.linalg.norm(start, axis=1)).all()
+
+
+def test_curvature_colours_both_signs_alike():
+    """The bar is symmetric about zero, so the pale colour is a flat place."""
+    surface = view(dx.Torus(3.0, 1.0), colour="gaussian").data[0]
+    assert surface.cmin == -surface.cmax
+    assert surface.lighting.diffuse == 0.0
+    with pytest.raises(GeometryError, match=r"needs a surface that has \.curvature"):
+        view(lambda u, w: np.zeros((*np.broadcast_shapes(u.shape, w.shape), 3)), colour="mean")
+    with pytest.raises(GeometryError, match="'gaussian', 'mean'; got 'red'"):
+        view(dx.Torus(3.0, 1.0), colour="red")
+
+
+def test_knot_lines_lie_at_the_knots(saddle):
+    """Lines of constant u at the knots of u, of constant w at those of w."""
+    knots = named(view(saddle, knots=([0.5], [0.25])), "knots")[0]
+    pieces = np.split(np.stack([knots.x, knots.y]), np.flatnonzero(np.isnan(knots.x)), axis=1)
+    assert set(pieces[0][0]) == {0.5}
+    assert set(pieces[1][1][1:]) == {0.25}
+    with pytest.raises(GeometryError, match=r"knots must be given as parameters in \[0, 1\]"):
+        view(saddle, knots=([2.0], []))
+
+
+def test_the_square_marks_the_same_place(saddle):
+    """One diamond in the scene and one in the square, both at the (u, w) asked for."""
+    figure = view(saddle, square=True, mark=(0.25, 0.5))
+    diamonds = [trace for trace in figure.data if getattr(trace, "marker", None) and trace.marker.symbol == "diamond"]
+    assert [trace.type for trace in diamonds] == ["scatter3d", "scatter"]
+    assert (diamonds[0].x[0], diamonds[0].y[0], diamonds[0].z[0]) == (0.25, 0.5, 0.125)
+    assert (diamonds[1].x[0], diamonds[1].y[0]) == (0.25, 0.5)
+    with pytest.raises(GeometryError, match=r"mark must be \(u, w\) in \[0, 1\]"):
+        view(saddle, mark=(2, 0))
+
+
+def test_a_curve_is_one_line_with_its_start_marked():
+    """A function of u alone is a curve."""
+    figure = view(lambda u: np.stack([u, u * u, 0 * u], axis=-1), mark=[0.5])
+    assert figure.data[0].mode == "lines"
+    assert named(figure, "u = 0")[0].x.tolist() == [0.0]
+    assert named(figure, "u = 0.5")[0].y.tolist() == [0.25]
+
+
+def test_a_solid_is_drawn_as_its_six_faces():
+    """u, v, w = 0 and 1, each face hovering with the two parameters that run on it."""
+    figure = view(lambda u, v, w: np.stack(np.broadcast_arrays(u, v, w), axis=-1))
+    faces = [trace for trace in figure.data if trace.type == "surface"]
+    assert [face.name for face in faces] == ["u = 0", "u = 1", "v = 0", "v = 1", "w = 0", "w = 1"]
+    assert set(np.ravel(faces[3].y)) == {1.0}
+    assert "<b>u = " in faces[3].hovertemplate
+    assert ", w = " in faces[3].hovertemplate
+
+
+def test_further_curves_and_points_stand_in_the_scene(tube):
+    """A directrix as a callable, a point by its coordinates."""
+    figure = view(tube, curves={"axis": lambda t: np.stack([0 * t, 0 * t, 9 * t], -1), "top": (0, 0, 12)})
+    assert len(named(figure, "axis")[0].x) == 65
+    assert named(figure, "top")[0].z.tolist() == [12.0]
+    assert figure.layout.scene.zaxis.range[1] > 12
+
+
+def test_a_figure_stays_small(tube):
+    """float32: a comparison is a third of a megabyte, and more than 121 samples are refused."""
+    assert len(view(tube, against=tube).to_json()) < 450_000
+    with pytest.raises(GeometryError, match="samples must be from 2 to 121; got 500"):
+        view(tube, samples=500)
+
+
+def test_no_cloud_button():
+    """The notebook renderer is told to leave plotly's upload button out."""
+    import plotly.io as pio
+
+    view(lambda u: np.stack([u, u, u], axis=-1))
+    assert "sendChartToCloud" in pio.renderers["plotly_mimetype"].config["modeBarButtonsToRemove"]
+
+
+def test_title_is_data_not_markup(saddle):
+    """A name goes into plotly's small HTML as text."""
+    figure = view(saddle, curves={"<a href='javascript:0'>x</a>": (0, 0, 0)})
+    assert "<a" not in "".join(str(trace.name) for trace in figure.data)
+
+
+def test_importing_plot_loads_neither_plotly_nor_a_surface():
+    """A notebook that draws nothing pays for nothing, and the room is mounted alone where learners' code runs."""
+    code = (
+        "import sys, directrix.plot; loaded = [m for m in sys.modules if m.split('.')[0] == 'plotly' "
+        "or m.startswith(('directrix.surf', 'directrix.curves'))]; sys.exit(bool(loaded))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
