@@ -40,6 +40,9 @@ TOLERANCE = 1e-9
 # seam shows that the form is understood; a surface that is merely near or elsewhere shows less.
 TIER_CREDIT: dict[Tier, float] = {"relabelled": 0.5, "other start": 0.5, "close": 0.8}
 SHAPE_CREDIT = 0.5
+# The share kept by a function that is right (or has its mistake's credit) wherever there is an answer, and does not raise
+# ValueError where there is none: it has the geometry, and not yet the care.
+REFUSAL_CREDIT = 0.75
 
 
 @dataclass(frozen=True)

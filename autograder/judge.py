@@ -17,9 +17,20 @@ from autograder.comparison.gates import Gated, through_gates
 from autograder.comparison.target import Target, targets
 from autograder.diagnosis.explain import Explanation, Parts, pair_written, spoken_answer, worst_finding, worst_index
 from autograder.diagnosis.figure import figure_of
-from autograder.diagnosis.ladder import DEAR, Finding, Recognised, climb, find, overall, recognise, recognise_more, search
+from autograder.diagnosis.ladder import (
+    DEAR,
+    Finding,
+    Recognised,
+    answerable,
+    climb,
+    find,
+    overall,
+    recognise,
+    recognise_more,
+    search,
+)
 from autograder.errors import ExerciseError, SandboxError
-from autograder.exercise import PUBLIC_SEED, Exercise
+from autograder.exercise import PUBLIC_SEED, REFUSAL_CREDIT, Exercise
 from autograder.messages import say
 from autograder.result import GATES, Case, Outcome, Tier, Verdict
 
@@ -77,8 +88,9 @@ def _verdict(exercise: Exercise, asked: Sequence[Asked], call: Callable[..., Any
     hidden = [f for f in findings if f.target.hidden]
     if not_written(gated):
         return _not_run(exercise, shown)
-    recognised = _diagnose(findings, call if search else None)
-    rung = overall(findings)
+    asked_for = answerable(findings)
+    recognised = _diagnose(asked_for, call if search else None)
+    rung = overall(findings if all(f.right for f in asked_for) else asked_for)
     handled = not any(one.troubles for one in gated)
     tier: Tier = "mistake" if recognised is not None else "shape" if rung == "identical" and not handled else rung
     fraction = _fraction(exercise, findings, rung, recognised, handled=handled)
@@ -119,9 +131,11 @@ def _diagnose(findings: Sequence[Finding], call: Callable[..., Any] | None) -> R
 def _search(findings: Sequence[Finding], call: Callable[..., Any] | None) -> None:
     """The dear rungs: on public data, and on hidden data as far as marks hang on it."""
     exercise = findings[0].target.exercise
-    for finding in findings:
-        if not finding.target.hidden:
-            search(finding, call)
+    for finding in sorted((f for f in findings if not f.target.hidden), key=lambda f: f.target.drawn.blind):
+        before = finding.tier
+        search(finding, call)
+        if before == finding.tier == "different":
+            break  # the lowest rung already: what the others are changes nothing
     shown = overall([f for f in findings if not f.target.hidden])
     earns = shown in DEAR and exercise.tier_credit(shown) > 0
     for finding in findings:
@@ -134,8 +148,10 @@ def _search(findings: Sequence[Finding], call: Callable[..., Any] | None) -> Non
 def _fraction(
     exercise: Exercise, findings: Sequence[Finding], rung: Tier, recognised: Recognised | None, *, handled: bool
 ) -> float:
-    """A recognised mistake's own credit, else the least credit of the tiers; less where some shapes are not handled."""
-    tiers = [f.tier for f in findings if not f.right and (not f.target.drawn.blind or rung == f.tier)]
+    """A recognised mistake's own credit, else the least credit of the tiers; less where some shapes are not handled, and where
+    data that have no answer are not refused."""
+    asked_for = answerable(findings)
+    tiers = [f.tier for f in asked_for if not f.right and (not f.target.drawn.blind or rung == f.tier)]
     credit = min((0.0 if tier in GATES else exercise.tier_credit(tier) for tier in tiers), default=1.0)
     if recognised is not None and recognised.mistake.credit is not None:
         credit = recognised.mistake.credit
@@ -143,6 +159,8 @@ def _fraction(
         credit *= exercise.tier_credit("relabelled")
     if recognised is not None and recognised.second is not None:
         credit *= recognised.second.credit or 0.0
+    if not all(f.right for f in findings if f.target.raises) and len(asked_for) < len(findings):
+        credit *= REFUSAL_CREDIT
     return float(credit if handled else credit * exercise.shape_credit)
 
 
@@ -179,7 +197,7 @@ def _not_run(exercise: Exercise, shown: Sequence[Finding]) -> Verdict:
 def _case(finding: Finding, recognised: Recognised | None) -> Case:
     target, tier = finding.target, finding.tier
     mistake = None
-    if recognised is not None and not finding.right:
+    if recognised is not None and not finding.right and not target.raises:
         tier, mistake = "mistake", recognised.mistake.id
     case = Case(target.name, tier, blind=target.drawn.blind, hidden=target.hidden, mistake=mistake)
     if target.hidden:

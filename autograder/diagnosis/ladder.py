@@ -269,6 +269,11 @@ def _multiplied(f: Sampled, one: Mistake, other: Mistake) -> bool:
 # --- all data sets together ------------------------------------------------------------------------------------------------
 
 
+def answerable(findings: Sequence[Finding]) -> list[Finding]:
+    """The findings on data that have an answer; all of them if none has. Not to refuse the others is a fault of its own."""
+    return [finding for finding in findings if not finding.target.raises] or list(findings)
+
+
 def overall(findings: Sequence[Finding]) -> Tier:
     """The tier of all data sets together: the worst gate, else the lowest rung. Blind data decide only where no other do."""
     wrong = [finding for finding in findings if not finding.right]

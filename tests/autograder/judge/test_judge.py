@@ -6,8 +6,9 @@ import math
 import numpy as np
 import pytest
 
+from autograder.catalogue import shipped
 from autograder.errors import CallFailed, SandboxError
-from autograder.exercise import exercise
+from autograder.exercise import REFUSAL_CREDIT, exercise
 from autograder.judge import judge
 from autograder.result import Verdict
 
@@ -90,7 +91,7 @@ class TestRight:
             return curve(u) + np.asarray(w)[..., None] * np.asarray(direction) / max(np.linalg.norm(direction), 1e-300)
 
         verdict = judge(swept, call)
-        assert verdict.fraction == 0.0
+        assert (verdict.fraction, verdict.outcome) == (REFUSAL_CREDIT, "partial")
         assert "must raise ValueError" in verdict.message
         assert [case.tier for case in verdict.cases] == ["identical", "different"]
 
@@ -101,8 +102,35 @@ class TestRight:
             return swept.reference(u, w, curve, direction)
 
         verdict = judge(swept, call)
-        assert verdict.fraction == 0.0
+        assert verdict.fraction == REFUSAL_CREDIT
         assert "ZeroDivisionError" in verdict.message
+
+    def test_a_known_mistake_is_named_though_its_maker_refuses_nothing(self):
+        """Who never divides by the length never meets a zero length: one slip must not hide the other."""
+        sweep = shipped().find("linear_sweep")
+
+        def call(u, w, curve, direction, d):
+            u, w = np.broadcast_arrays(u, w)
+            return curve(u) + d * w[..., None] * direction
+
+        verdict = judge(sweep, call, seed=SECRET)
+        assert (verdict.mistake, verdict.tier, verdict.fraction) == ("not_normalised", "mistake", 0.5 * REFUSAL_CREDIT)
+        assert {case.tier for case in verdict.cases if case.data == "no_direction"} == {"different"}
+
+    def test_a_wrong_answer_with_a_missing_refusal_is_told_both(self, swept):
+        def call(u, w, curve, direction):
+            return curve(1 - u) + np.asarray(w)[..., None] * np.asarray(direction) / max(np.linalg.norm(direction), 1e-300)
+
+        verdict = judge(swept, call)
+        assert (verdict.tier, verdict.fraction) == ("relabelled", 0.5 * REFUSAL_CREDIT)
+        assert "u runs backwards" in verdict.message
+        assert "Besides, there is no answer on the data set nowhere" in verdict.message
+
+    def test_refusing_everything_is_worth_nothing(self):
+        def call(*args):
+            raise ValueError("no")
+
+        assert judge(shipped().find("linear_sweep"), call, seed=SECRET).fraction == 0.0
 
 
 class TestShapes:
