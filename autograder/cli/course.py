@@ -101,7 +101,7 @@ def demo(
         pages = feedback.write(course, made.name)
         console.print(report.table(graded))
         surprises = cohorts.surprises(made.name, graded)
-        problems += len(surprises) + len(graded.failures)
+        problems += len(surprises) + len(graded.faults)
         for surprise in surprises:
             console.print(f"[bold red]not as expected:[/] {surprise}")
         summary[made.name] = {**graded.to_dict(), "feedback": len(pages), "surprises": surprises}
