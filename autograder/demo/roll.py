@@ -10,6 +10,7 @@ from autograder.catalogue import Assignment
 from autograder.demo import member as by_hand
 from autograder.demo.member import Edit, Kind, Member
 from autograder.demo.snippets import answers, cells, filled, mistaken
+from autograder.exercise import REFUSAL_CREDIT
 
 STYLES = {
     "vectorised": "Right: NumPy arrays, stacked along a new last axis.",
@@ -102,6 +103,11 @@ def partial(assignment: Assignment) -> Iterator[Draft]:
     yield Draft(
         "single-points", "Some functions work for single numbers only.", "partial", solved(assignment, "single_points"),
         full(assignment, **{id: exercises[id].shape_credit for id in single}),
+    )  # fmt: skip
+    careless = cells(assignment.slug, "careless")
+    yield Draft(
+        "careless", "Right, but refuses nothing: no ValueError where there is no answer.", "partial",
+        solved(assignment, "careless"), full(assignment, **dict.fromkeys(careless, REFUSAL_CREDIT)),
     )  # fmt: skip
     made = exercises[second].mistakes[0]
     unfinished = {

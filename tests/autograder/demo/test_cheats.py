@@ -65,7 +65,7 @@ def test_writing_the_gradebook_changes_marks(free, tmp_path):
             CREATE TABLE submitted_notebook (id TEXT, assignment_id TEXT);
             CREATE TABLE submitted_assignment (id TEXT, student_id TEXT);
             INSERT INTO submitted_assignment
-                VALUES ('a1', 's32-write-gradebook'), ('a2', 's01-vectorised'), ('a3', 's02-loops');
+                VALUES ('a1', 's33-write-gradebook'), ('a2', 's01-vectorised'), ('a3', 's02-loops');
             INSERT INTO submitted_notebook VALUES ('n1', 'a1'), ('n2', 'a2'), ('n3', 'a3');
             INSERT INTO grade VALUES ('g1', 'n1', 0, NULL, 0), ('g2', 'n2', 6, NULL, 0), ('g3', 'n3', 6, NULL, 0);
         """)

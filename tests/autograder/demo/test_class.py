@@ -70,7 +70,7 @@ def test_no_snippet_is_left_over(assignment):
         assert list(cells(assignment.slug, style)) == list(assignment.exercises), style
     listed = [f"{exercise.id}: {mistake.id}" for exercise in assignment.exercises.values() for mistake in exercise.mistakes]
     assert sorted(cells(assignment.slug, "mistakes")) == sorted(listed)
-    for style in ("single_points", "nan_at_pole"):
+    for style in ("single_points", "nan_at_pole", "careless"):
         assert set(cells(assignment.slug, style)) <= set(assignment.exercises), style
 
 
@@ -188,14 +188,14 @@ def test_an_exact_grading_holds_no_surprise():
     ("slug", "exercise", "change", "expected"),
     [
         ("vectorised", "torus", {"points": 5.0}, "s01-vectorised, torus: 6 points expected, 5 points given"),
-        ("forge-output", "torus", {"points": 6.0}, "s33-forge-output, torus: 0 points expected, 6 points given"),
+        ("forge-output", "torus", {"points": 6.0}, "s34-forge-output, torus: 0 points expected, 6 points given"),
         ("vectorised", "torus", {"points": None}, "s01-vectorised, torus: 6 points expected, no mark given"),
-        ("deleted-cells", "frustum", {"points": 5.0}, "s27-deleted-cells, frustum: no mark expected, 5 points given"),
+        ("deleted-cells", "frustum", {"points": 5.0}, "s28-deleted-cells, frustum: no mark expected, 5 points given"),
         (
             "mistakes-1", "cylinder", {"mistake": None},
             "s07-mistakes-1, cylinder: the mistake no_2pi was not named; told None",
         ),
-        ("pasted-twice", "cylinder", {"look": False}, "s28-pasted-twice, cylinder: no manual look is asked for"),
+        ("pasted-twice", "cylinder", {"look": False}, "s29-pasted-twice, cylinder: no manual look is asked for"),
     ],
 )  # fmt: skip
 def test_each_surprise_is_named(slug, exercise, change, expected):
@@ -210,5 +210,5 @@ def test_a_missing_student_and_a_broken_notebook_that_nobody_named():
     students[the("A1", "truncated").student_id].broken = ()
     assert told(students) == [
         "s01-vectorised: is not in the report",
-        "s26-truncated: cannot be read, and is not named as broken",
+        "s27-truncated: cannot be read, and is not named as broken",
     ]
