@@ -97,6 +97,7 @@ TEXT: dict[str, str] = {
     "wrong.moved.set": "Right shape as a set of points, but in another place and traced in another way.",
     "wrong.moved.relabelled": "Besides, {relabelled}.",
     "wrong.no_error": "For these arguments there is no answer: your function must raise ValueError, but it returned {yours}.",
+    "wrong.also_no_error": "Besides, there is no answer on {data}: your function must raise ValueError there.",
     "wrong.other_error": "For these arguments your function must raise ValueError; it raised {exception} instead: {message}",
     "wrong.wrongly_error": "Your function raised {exception}: {message}",
     "wrong.value": "It is not the right value.",

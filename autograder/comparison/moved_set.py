@@ -8,6 +8,7 @@ is projected out: plain point-to-point matching crawls along a cylinder, and one
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from autograder.comparison.sets import SAME, Measured, on
 MOMENTS = 0.02  # relative difference of second moments that is still taken for equal
 CANDIDATES = 3
 ROUNDS = 12
+STALLED = 0.4  # Gauss-Newton that gains less than this a round is on its way to no match
+ELSEWHERE = 0.05  # guesses whose mean distance, relative to the spread, is larger are no match
 
 
 def moved_set(yours: Measured, right: Measured, size: float) -> Motion | None:
@@ -53,17 +56,37 @@ def _guesses(yours: Measured, right: Measured) -> list[Motion]:
         scale = 1.0
     if np.abs(spread_b - scale**2 * spread_a).max() > 2 * MOMENTS * spread_b[-1]:
         return []
-    equal = np.diff(spread_a).min() < 4 * MOMENTS * spread_a[-1]
-    orders = list(itertools.permutations(range(3))) if equal else [(0, 1, 2)]
-    thin = yours.points[:: max(1, len(yours.points) // 300)]
     across = float(np.sqrt(spread_a.sum()))
+    thin = yours.points[:: max(1, len(yours.points) // 150)]
     found: list[tuple[float, bool, int, Motion]] = []
-    for order, signs in itertools.product(orders, itertools.product((1.0, -1.0), repeat=3)):
-        turn = (axes_b[:, list(order)] * signs) @ axes_a.T
+    for axes in _frames(axes_b, np.diff(spread_a) < 4 * MOMENTS * spread_a[-1]):
+        turn = axes @ axes_a.T
         motion = Motion(scale, turn, b - scale * a @ turn.T)
         distances, _ = right.cloud.tree.query(motion.inverse(thin))
-        found.append((round(float(distances.mean()) / across, 2), motion.reflects, len(found), motion))
+        off = float(distances.mean()) / across
+        if off <= ELSEWHERE:
+            found.append((round(off, 2), motion.reflects, len(found), motion))
     return [entry[3] for entry in sorted(found, key=lambda entry: entry[:3])]
+
+
+def _frames(axes: Array, equal: Array) -> Iterator[Array]:
+    """Principal axes with every choice of signs and, between axes whose moments agree, turned in steps of 15°."""
+    plane = {(True, False): (0, 1), (False, True): (1, 2)}.get((bool(equal[0]), bool(equal[1])))
+    orders = [[0, 1, 2]]
+    if plane is not None:
+        exchanged = [0, 1, 2]
+        exchanged[plane[0]], exchanged[plane[1]] = plane[1], plane[0]
+        orders.append(exchanged)
+    elif equal.all():
+        orders = [list(order) for order in itertools.permutations(range(3))]
+    for angle in np.radians(np.arange(0, 90, 15)) if plane is not None else [0.0]:
+        turned = axes.copy()
+        if plane is not None:
+            one, other = axes[:, plane[0]], axes[:, plane[1]]
+            turned[:, plane[0]] = np.cos(angle) * one + np.sin(angle) * other
+            turned[:, plane[1]] = np.cos(angle) * other - np.sin(angle) * one
+        for order, signs in itertools.product(orders, itertools.product((1.0, -1.0), repeat=3)):
+            yield turned[:, order] * signs
 
 
 def _refined(motion: Motion, yours: Measured, right: Measured, size: float) -> Motion | None:
@@ -72,8 +95,8 @@ def _refined(motion: Motion, yours: Measured, right: Measured, size: float) -> M
     x, z = yours.probes, right.probes
     there = nearest(right.at, right.cloud, motion.inverse(x), 1e-2 * size)
     back = nearest(yours.at, yours.cloud, motion(z), 1e-2 * size)
-    last = np.inf
-    for _ in range(ROUNDS):
+    last = worst = np.inf
+    for round_number in range(ROUNDS):
         pulled, met = motion.inverse(x), motion.inverse(back.points)
         rows = [_residual(right.at, there, pulled, there.points, pulled)]
         rows.append(_residual(yours.at, back, met, z, met, motion))
@@ -85,7 +108,7 @@ def _refined(motion: Motion, yours: Measured, right: Measured, size: float) -> M
         there = improved(right.at, there, motion.inverse(x))
         back = improved(yours.at, back, motion(z))
         worst = max(float(there.distances.max()), float(back.distances.max()))
-        if worst <= SAME * size / 10 or (worst > 0.9 * last and worst > 0.05 * size):
+        if worst <= SAME * size / 10 or (round_number > 1 and worst > STALLED * last):
             break
         last = worst
     return motion if worst <= 10 * SAME * size else None

@@ -56,7 +56,7 @@ class Explanation:
             # What an exception says may hold the data that came in; of hidden data only the form is told.
             unshown = next((f.gated.troubles for f in hidden if f.gated.troubles), ())
             self.troubles = tuple(Trouble(t.form, "shape.some", t.facts) for t in unshown)
-        self.worst = worst_finding(shown)
+        self.worst = worst_finding(shown)  # on data that have an answer, unless only the others are wrong
 
     def parts(self) -> Parts:
         """The parts, in the order in which they are read."""
@@ -73,9 +73,9 @@ class Explanation:
         if self.tier == "shape" and self.troubles:
             return [("right", say("right.points")), *self._shape()]
         if self.worst.sampled is None:
-            return self._value()
+            return [*self._value(), *([] if self.worst.target.raises else self._not_refused())]
         body, unused = self._map()
-        return [*body, *(self._shape() if self.troubles and not unused else [])]
+        return [*body, *self._not_refused(), *(self._shape() if self.troubles and not unused else [])]
 
     # --- right
 
@@ -154,6 +154,11 @@ class Explanation:
             look = LOOKS.get(key) or _look_of(key, len(self._names())) or "look.shape"
             parts.append(("look", say(look)))
         return parts
+
+    def _not_refused(self) -> Parts:
+        """Data without an answer that were not refused, besides what else is wrong."""
+        names = [f.target.name for f in self.wrong if f.target.raises]
+        return [("wrong", say("wrong.also_no_error", data=named(names)))] if names else []
 
     # --- maps
 
@@ -406,9 +411,9 @@ def _look_of(key: str, dimension: int) -> str | None:
 def worst_finding(findings: Sequence[Finding]) -> Finding:
     """The finding to show: the largest deviation, data that see before blind ones, maps before what has no numbers."""
 
-    def rank(f: Finding) -> tuple[bool, bool, float]:
+    def rank(f: Finding) -> tuple[bool, bool, bool, float]:
         deviation = f.sampled.worst if f.sampled is not None and np.isfinite(f.sampled.values).all() else 0.0
-        return not f.right, not f.target.drawn.blind, deviation
+        return not f.right, not f.target.raises, not f.target.drawn.blind, deviation
 
     return max(findings, key=rank)
 
