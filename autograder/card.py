@@ -332,16 +332,21 @@ def _numbers(nested: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
 
 
 def _clean(text: str, longest: int = 400, *, lines: bool = False) -> str:
-    """Text without control characters, cut to a length; on one line unless ``lines``."""
-    kept = "".join(char for char in text if char.isprintable() or char == "\n" or char == "\t")
+    """Printable text, cut to a length; on one line unless ``lines``."""
+    kept = _printable(text)
     if not lines:
         kept = " ".join(kept.split())
     return kept if len(kept) <= longest else kept[: longest - 1] + "…"
 
 
+def _printable(text: str) -> str:
+    """Text without control characters and lone surrogates; ends of lines and tabs stay."""
+    return "".join(char for char in text if char.isprintable() or char in "\n\t")
+
+
 def _escape(text: str) -> str:
     """Text as HTML. $ and \\ stand in elements of their own, so that no MathJax reads a formula into a learner's words."""
-    return re.sub(r"([$\\])", r"<span>\1</span>", _html.escape(text, quote=True))
+    return re.sub(r"([$\\])", r"<span>\1</span>", _html.escape(_printable(text), quote=True))
 
 
 def _marked_up(text: str) -> str:
