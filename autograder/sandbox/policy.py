@@ -32,8 +32,8 @@ class Limits:
 
     A cell or call may take three times its CPU time plus ``patience`` seconds by the clock: marks must not depend on how
     busy the machine is. ``memory`` is what code may ask for beyond what the interpreter already has; ``output``
-    (characters) and ``outputs`` bound what one cell shows, ``answer`` what one call returns, ``file`` one file, ``scratch`` all files together, ``files``
-    their number; ``threads`` the threads at once. Processes are never allowed.
+    (characters) and ``outputs`` bound what one cell shows, ``answer`` what one call returns, ``file`` one file,
+    ``scratch`` all files together, ``files`` their number, ``threads`` the threads at once. Processes are never allowed.
     """
 
     cell_cpu: float = 20.0

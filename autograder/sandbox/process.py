@@ -188,7 +188,7 @@ class Process:
             raise SandboxError("the zygote has died, and the notebook's process with it")
         status = int(end["status"])
         number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
-        if not by_itself:
+        if not by_itself or (os.WIFEXITED(status) and os.WEXITSTATUS(status) == wire.LINK_LOST):
             raise Over(Ended("died", messages.closed(action.what)))
         if number == signal.SIGKILL and self._cpu >= self.limits.notebook_cpu:  # the kernel's own clock was quicker than ours
             raise Over(self.out_of_time("cpu", action))

@@ -34,7 +34,7 @@ class Session:
         self.facts: tuple[Any, ...] = ()
         self._process = process
         self._began = time.monotonic()
-        self._used_before = 0.0  # CPU seconds when the present action began
+        self._action_began = self._began
         self._shown: dict[str, list[dict[str, Any]]] = {}  # displays with an id, for later updates
 
     def __enter__(self) -> Session:
@@ -129,8 +129,8 @@ class Session:
         self, what: str, cpu: float, limits: Limits, most: int, items: int = wire.ITEMS, *, raw: bool = False
     ) -> Action:
         """What the next action may take; ends the session when the notebook has no time left."""
-        self._used_before = self._process.cpu
-        left = self.limits.notebook_cpu - self._used_before
+        self._action_began = time.monotonic()
+        left = self.limits.notebook_cpu - self._process.cpu
         if left <= 0 and self.ended is None:
             self._process.kill()
             self.ended = Ended("timeout", messages.notebook_time(self.limits.notebook_cpu), "notebook")
@@ -188,9 +188,7 @@ class Session:
 
     def _interrupted(self, action: Action) -> Ended:
         """The child says that time was up; which time, is measured here."""
-        limit: Literal["cpu", "wall"] = "wall"
-        if self._process.cpu >= self._used_before + 0.9 * action.cpu:
-            limit = "cpu"
+        limit: Literal["cpu", "wall"] = "wall" if time.monotonic() - self._action_began > 0.95 * action.wall else "cpu"
         self.out_of_time = self._process.out_of_time(limit, action)
         return self.out_of_time
 

@@ -24,6 +24,8 @@ from autograder.curvedata import CurveData
 Value: TypeAlias = "bool | int | float | str | bytes | NDArray[Any] | CurveData | tuple[Value, ...] | None"
 
 HEADER = struct.Struct("<BI16s")
+LINK_LOST = 71  # exit code of a child that finds its socket closed by the code it runs
+
 START, CELL, CALL, FILES = 1, 2, 3, 4  # asked of the child
 READY, BROKEN, DONE = 65, 66, 67  # answered by it: set up; not set up, and why; the answer to a question
 KINDS = frozenset({START, CELL, CALL, FILES, READY, BROKEN, DONE})

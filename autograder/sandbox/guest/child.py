@@ -52,7 +52,10 @@ def main(job: int, level: str, limits: dict[str, Any], scratch: str, programme: 
     link.sendall(wire.frame(wire.READY, bytes(16), wire.encode((level, int(facts["landlock"]), str(facts.get("proc", ""))))))
     server = Server(link, limits, shell, f"{scratch}/work")
     while True:
-        server.answer()
+        try:
+            server.answer()
+        except OSError:
+            os._exit(wire.LINK_LOST)
 
 
 class Server:

@@ -234,6 +234,9 @@ class Shell(InteractiveShell):
     def enable_gui(self, gui: Any = None) -> None:
         """No windows here."""
 
+    def ask_exit(self) -> None:
+        """``exit()`` and ``quit`` would end a kernel after the cell; the grader runs the cells after it as well."""
+
     def _page(self, strg: Any, start: int = 0, screen_lines: int = 0, pager_cmd: Any = None) -> None:
         """A kernel shows a pager's text apart from the outputs; nothing of it is kept."""
 

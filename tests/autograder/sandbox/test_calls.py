@@ -1,0 +1,170 @@
+"""Calls of learners' functions: values in, values out, and a helpful account of what went wrong."""
+
+import numpy as np
+import pytest
+
+from autograder.curvedata import CurveData
+from autograder.errors import CallFailed, SandboxError
+
+CURVE = CurveData([0, 1], np.array([[[1.0, 0, 0], [0, 2, 0]]]))
+
+
+def define(session, source):
+    assert session.run_cell(source).status == "ok"
+
+
+def failed(session, name="f", arguments=()):
+    with pytest.raises(CallFailed) as caught:
+        session.call(name, arguments)
+    return caught.value
+
+
+@pytest.mark.parametrize(
+    ("expression", "expected"),
+    [("None", None), ("True", True), ("np.bool_(True)", True), ("3", 3), ("np.int64(3)", 3), ("2.5", 2.5), ("np.float32(2.5)", 2.5),
+     ("'cone'", "cone"), ("np.str_('cone')", "cone"), ("(1, 'a', (2.0,))", (1, "a", (2.0,))), ("['a', 1]", ("a", 1))],
+)  # fmt: skip
+def test_plain_answers(session, expression, expected):
+    define(session, f"import numpy as np\ndef f(): return {expression}")
+    answer = session.call("f", [])
+    assert (type(answer), answer) == (type(expected), expected)
+
+
+@pytest.mark.parametrize(
+    "expression",
+    ["np.arange(6.0).reshape(2, 3)", "[[0, 1.0, 2], [3, 4, 5]]", "[np.arange(3), np.arange(3.0, 6)]", "np.matrix([[0, 1.0, 2], [3, 4, 5]])",
+     "np.arange(6, dtype='f2').reshape(2, 3)", "np.ma.array(np.arange(6.0).reshape(2, 3))"],
+)  # fmt: skip
+def test_arrays_and_lists_of_numbers_are_arrays(session, expression):
+    define(session, f"import numpy as np\ndef f(): return {expression}")
+    answer = session.call("f", [])
+    assert type(answer) is np.ndarray
+    assert np.array_equal(answer, np.arange(6.0).reshape(2, 3))
+
+
+def test_arguments_arrive_in_order_arrays_read_only_and_curves_callable(session):
+    define(
+        session,
+        "def f(u, curve, name, pair):\n    u.flags.writeable\n    return u.flags.writeable, curve(u), name, pair[1], type(curve).__name__",
+    )
+    u = np.array([0.0, 0.5])
+    writable, points, name, second, kind = session.call("f", [u, CURVE, "x", (1, 2)])
+    assert (writable, name, second, kind) == (False, "x", 2, "CurveData")
+    assert np.array_equal(points, CURVE(u))
+
+
+def test_an_argument_changed_in_place_is_an_error_at_its_line(session):
+    define(session, "def f(u):\n    u *= 2\n    return u")
+    failure = failed(session, arguments=[np.arange(3.0)])
+    assert (failure.kind, failure.exception, failure.line, failure.source) == ("error", "ValueError", 2, "u *= 2")
+
+
+def test_an_argument_cannot_be_made_writable(session):
+    define(session, "def f(u):\n    u.flags.writeable = True\n    return u")
+    assert failed(session, arguments=[np.arange(3.0)]).exception == "ValueError"
+
+
+def test_an_error_tells_class_bases_message_line_and_source(session):
+    define(session, "class Odd(KeyError): pass\n\ndef helper():\n    raise Odd('what')\n\ndef f():\n    return helper()")
+    failure = failed(session)
+    assert (failure.kind, failure.exception, failure.line, failure.source) == ("error", "Odd", 4, "raise Odd('what')")
+    assert failure.bases[:3] == ("Odd", "KeyError", "LookupError")
+    assert failure.message == "'what'"
+
+
+def test_an_error_inside_numpy_points_to_the_learners_line(session):
+    define(session, "import numpy as np\ndef f():\n    a = 1\n    return np.stack([np.zeros(2), np.zeros(3)])")
+    failure = failed(session)
+    assert (failure.exception, failure.line) == ("ValueError", 4)
+
+
+@pytest.mark.parametrize(
+    "what",
+    [
+        "raise SystemExit(0)",
+        "raise KeyboardInterrupt",
+        "import sys; sys.exit()",
+        "exit_ = 1; raise BaseException('x')",
+        "raise GeneratorExit",
+    ],
+)
+def test_leaving_is_an_error_like_any_other(session, what):
+    define(session, f"def f():\n    {what}\ndef g(): return 1")
+    assert failed(session).kind == "error"
+    assert session.call("g", []) == 1
+
+
+def test_endless_recursion_is_an_error(session):
+    define(session, "def f(): return f()")
+    assert failed(session).exception == "RecursionError"
+
+
+def test_an_exception_that_cannot_be_shown(session):
+    define(session, "class E(Exception):\n    def __str__(self): raise ValueError\ndef f(): raise E")
+    assert failed(session).message == "(its message cannot be shown)"
+
+
+@pytest.mark.parametrize(
+    ("source", "said"), [("f = 5", "of type int"), ("pass", "defines no function called f"), ("f = None", "NoneType")]
+)
+def test_a_missing_function(session, source, said):
+    define(session, source)
+    failure = failed(session)
+    assert failure.kind == "missing"
+    assert said in failure.message
+
+
+@pytest.mark.parametrize(
+    ("expression", "said"),
+    [("{}", "a dict"), ("object()", "an object"), ("print", "a builtin_function"), ("np.array([None, {}])", "dtype object"), ("[[1], [1, 2]]", None),
+     ("2**70", "64 bits"), ("b'x'", "a bytes"), ("np.array(['a'])", "dtype <U1"), ("[[[[[{}]]]]]", "nested too deeply"),
+     ("np.ma.array([1.0, 2.0], mask=[True, False])", "masked"), ("np.zeros((1,) * 9)", "9 dimensions"), ("(i for i in range(3))", "a generator"),
+     ("np.datetime64('2020-01-01')", "datetime64"), ("np.zeros(2**22)", "bytes; at most")],
+)  # fmt: skip
+def test_an_answer_that_cannot_be_taken(session, expression, said):
+    define(session, f"import numpy as np\ndef f(): return {expression}")
+    if said is None:  # ragged lists: a tuple of what there is
+        assert [len(row) for row in session.call("f", [])] == [1, 2]
+        return
+    failure = failed(session)
+    assert failure.kind == "refused"
+    assert said in failure.message
+
+
+def test_ragged_arrays_say_what_to_try(session):
+    define(session, "import numpy as np\ndef f(): return np.array([np.zeros(2), np.zeros(3)], dtype=object)")
+    assert "np.stack" in failed(session).message
+
+
+def test_what_a_call_prints_is_discarded(session):
+    """It could tell the hidden arguments."""
+    define(
+        session,
+        "import os, sys\ndef f(x):\n    print(x); print(x, file=sys.stderr); os.write(1, b'secret'); display(x)\n    return x",
+    )
+    assert session.call("f", [41]) == 41
+    assert session.run_cell("pass").outputs == []
+    assert session.run_cell("print('seen')").outputs[0]["text"] == "seen\n"
+
+
+def test_random_numbers_differ_from_call_to_call_and_not_from_run_to_run(sandbox):
+    runs = []
+    for _ in range(2):
+        with sandbox.open() as session:
+            define(session, "import numpy as np, random\ndef f(): return random.random(), np.random.rand()")
+            runs.append([session.call("f", []) for _ in range(3)])
+    assert runs[0] == runs[1]
+    assert len(set(runs[0])) == 3
+
+
+def test_an_argument_that_cannot_be_sent_is_the_graders_fault(session):
+    define(session, "def f(x): return x")
+    with pytest.raises(SandboxError, match="dict"):
+        session.call("f", [{}])
+
+
+def test_messages_from_inside_have_no_terminal_escapes_and_an_end(session):
+    define(session, "def f(): raise ValueError('\\x1b[2J\\u202e' + 'x' * 10_000)")
+    message = failed(session).message
+    assert "\x1b" not in message
+    assert len(message) <= 2000
