@@ -99,7 +99,6 @@ TEXT: dict[str, str] = {
     "wrong.no_error": "For these arguments there is no answer: your function must raise ValueError, but it returned {yours}.",
     "wrong.also_no_error": "Besides, there is no answer on {data}: your function must raise ValueError there.",
     "wrong.other_error": "For these arguments your function must raise ValueError; it raised {exception} instead: {message}",
-    "wrong.wrongly_error": "Your function raised {exception}: {message}",
     "wrong.value": "It is not the right value.",
     "wrong.word": "“{yours}” is not the right word.",
     "wrong.word_case": "“{yours}” is right but for capitals or spaces; write it exactly as the statement does.",
@@ -133,7 +132,6 @@ TEXT: dict[str, str] = {
     "fact.coordinate_offset": "{name} is off by {offset} everywhere.",
     "fact.coordinates_exchanged": "Its coordinates are exchanged: your {yours} is the right {expected}.",
     "fact.factor": "Every point is {factor} times as far from the origin as it should be.",
-    "fact.inside": "All edges are right, the inside is not.",
     # --- where
     "where.point": "Furthest off on {data}, at {place}: your point is {yours}, the right one is {expected}.",
     "where.value": "On {data}, at {place}: you have {yours}, the right one is {expected}.",

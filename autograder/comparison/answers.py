@@ -137,7 +137,8 @@ def read(value: Any, *, whole: bool = True) -> Answer:
         return Unreadable("text", {"text": repr(str(array.flat[0]) if array.size else "")[:40]})
     if array.dtype.kind == "O" and array.size:
         try:
-            return Numbers(np.array(array.tolist(), dtype=float))
+            if not any(item is None for item in array.flat):  # NumPy would make it NaN
+                return Numbers(np.array(array.tolist(), dtype=float))
         except (TypeError, ValueError):
             return _pieces(value)
     return _pieces(value)

@@ -51,7 +51,8 @@ def allowed(target: Target, expected: Numbers) -> float:
     """The difference that still counts as equal."""
     if expected.was != "float":
         return target.exercise.tolerance
-    return target.exercise.tolerance * scale(target, expected) + FLOOR * target.data_scale
+    largest = float(np.abs(expected.values).max(initial=0.0))
+    return target.exercise.tolerance * largest + FLOOR * target.data_scale
 
 
 def same(target: Target, yours: Answer, expected: Answer, *, near: float = 0.0) -> bool:
@@ -225,6 +226,8 @@ def _partly_right(a: Array, b: Array, enough: float) -> Pattern | None:
             places = ", ".join(str(i) for i in wrong[:8]) + (", ..." if len(wrong) > 8 else "")
             facts = {"axis": axis, "wrong": places, "count": len(wrong), "of": len(layers)}
             factor = _common_factor(np.take(a, wrong, axis), np.take(b, wrong, axis), enough)
-            key = "value.items" if b.ndim == 1 else "value.layers"
-            return Pattern(f"{key}_factor", {**facts, "factor": factor}) if factor is not None else Pattern(key, facts)
+            if factor is not None:
+                key = "value.items_factor" if b.ndim == 1 else "value.layers_factor"
+                return Pattern(key, {**facts, "factor": factor})
+            return Pattern("value.items" if b.ndim == 1 else "value.layers", facts)
     return Pattern("value.entries", {"count": total - count, "total": total})

@@ -1,0 +1,144 @@
+"""The ladder of values: what a wrong number, net or basis has to do with the right one."""
+
+import numpy as np
+import pytest
+
+from autograder.exercise import exercise
+from autograder.judge import judge
+
+NET = np.arange(36.0).reshape(4, 3, 3) ** 1.5 - 20
+SQUARE = np.arange(48.0).reshape(4, 4, 3) ** 1.5 - 20
+
+
+def posed(right, kind="net", **options):
+    @exercise(points=1, title="A value", kind=kind, **options)
+    def value(a):
+        """Return it."""
+        return right
+
+    @value.data
+    def plain(rng):
+        return {"a": 2.0}
+
+    return value
+
+
+def off_by(place, by=1.0):
+    wrong = NET.copy()
+    wrong[place] += by
+    return wrong
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "said"),
+    [
+        (NET, -NET, "wrong sign"),
+        (NET, 3 * NET, "3 times the right one"),
+        (NET, NET + 2, "the right one plus 2"),
+        (NET, NET.transpose(1, 0, 2), "the axes are exchanged"),
+        (SQUARE, SQUARE.transpose(1, 0, 2), "transposed"),
+        (NET, NET.ravel(), "in shape (36,); wanted (4, 3, 3)"),
+        (NET, NET.ravel()[::-1], "as many numbers as wanted"),
+        (NET, NET[:-1], "One too few along axis 0"),
+        (NET, np.concatenate([NET, NET[:1]]), "One too many along axis 0"),
+        (NET, NET[0, 0], "shape (3,), wanted (4, 3, 3)"),
+        (NET, NET[::-1], "reverse order along axis 0"),
+        (NET, np.roll(NET, 1, axis=1), "shifted by one along axis 1"),
+        (NET, NET[[2, 0, 3, 1]], "another order"),
+        (NET, np.abs(NET), "have the wrong sign"),
+        (NET, off_by((slice(None), 1)), "Along axis 1, 1 of 3 layers are wrong (number 1)"),
+        (NET, NET * np.array([1, 1, 2]), "Along axis 2, 1 of 3 layers are wrong (number 2): they are 2 times"),
+        (NET, NET + np.eye(4)[:, :3, None], "3 of 4 layers are wrong (number 0, 1, 2)"),
+        (np.array([1.0, 2, 3, 4]), np.array([1.0, 2, 6, 8]), "2 of 4 entries are wrong (number 2, 3): they are 2 times"),
+        (np.float64(0.75), 1.5, "2 times the right one"),
+        (np.float64(0.75), 0.71, "not the right value"),
+        (48, 24, "0.5 times"),
+        (True, False, "says False where the answer is True"),
+        ("horn", "Horn ", "capitals or spaces"),
+        ("horn", "ring", "“ring” is not the right word"),
+        ("horn", 3.0, "The answer is a word"),
+        (2.0, "two", "The answer is a number"),
+    ],
+)
+def test_a_wrong_value_is_told_by_its_pattern(right, wrong, said):
+    verdict = judge(posed(right, kind="label" if isinstance(right, str) else "net"), lambda a: wrong)
+    assert verdict.fraction == 0.0
+    assert said in verdict.message
+
+
+def test_the_right_word_is_not_told():
+    assert "horn" not in judge(posed("horn", kind="label"), lambda a: "ring").to_json()
+
+
+@pytest.mark.parametrize(
+    ("right", "answer"), [(48, 48.0), (True, 1), (True, np.bool_(True)), (NET, NET.tolist()), (0.5, [0.5][0])]
+)
+def test_the_same_value_in_other_clothes_is_right(right, answer):
+    assert judge(posed(right), lambda a: answer).fraction == 1.0
+
+
+def test_a_value_of_zero_leaves_room_for_rounding_and_no_more():
+    """A flatness of 0 comes out as 1e-16 times the size of the data."""
+    assert judge(posed(0.0, kind="value"), lambda a: 3e-16).fraction == 1.0
+    assert judge(posed(0.0, kind="value"), lambda a: 1e-9).fraction == 0.0
+
+
+def test_the_tolerance_is_relative_to_the_largest_entry():
+    exact = posed(NET, tolerance=1e-6)
+    largest = np.abs(NET).max()
+    assert judge(exact, lambda a: NET + 0.5e-6 * largest).fraction == 1.0
+    assert judge(exact, lambda a: NET + 5e-6 * largest).tier == "close"
+
+
+def test_one_entry_is_named_with_both_values():
+    verdict = judge(posed(NET), lambda a: off_by((2, 1, 0), 8.0))
+    assert "entry [2, 1, 0] is" in verdict.part("where")
+    assert f"{NET[2, 1, 0]:.4g}" in verdict.part("where")
+
+
+def test_a_tuple_names_the_element():
+    pair = posed((NET, np.ones((4, 3))))
+    assert judge(pair, lambda a: (NET, np.ones((4, 3)))).fraction == 1.0
+    assert judge(pair, lambda a: [NET, np.ones((4, 3))]).fraction == 1.0
+    verdict = judge(pair, lambda a: (NET, 2 * np.ones((4, 3))))
+    assert "Element 1 of the tuple" in verdict.message
+    assert "2 times" in verdict.message
+    assert "a tuple of 2" in judge(pair, lambda a: (NET, NET, NET)).message
+
+
+def test_not_a_number_in_a_value_earns_nothing_but_its_mistake_is_named():
+    value = posed(np.array([1.0, 2.0]), kind="basis")
+
+    @value.mistake("logarithms")
+    def _(a):
+        """0 to the power 0 by logarithms."""
+        return np.array([np.nan, 2.0])
+
+    assert judge(value, lambda a: np.array([np.nan, 3.0])).tier == "not finite"
+    verdict = judge(value, lambda a: np.array([np.nan, 2.0]))
+    assert (verdict.mistake, verdict.fraction) == ("logarithms", 0.0)
+
+
+def test_a_mistake_of_another_shape_is_named():
+    value = posed(np.arange(10.0))
+
+    @value.mistake("one_short", credit=0.5)
+    def _(a):
+        """One knot short."""
+        return np.arange(9.0)
+
+    verdict = judge(value, lambda a: np.arange(9.0))
+    assert (verdict.mistake, verdict.fraction) == ("one_short", 0.5)
+
+
+def test_a_mask_tells_a_place_and_how_many():
+    @exercise(points=1, title="Half", kind="mask")
+    def half(u, w):
+        """Return where u + w is at most 1."""
+        return np.asarray(u) + np.asarray(w) <= 1.0
+
+    half.data(lambda rng: {})
+    assert judge(half, lambda u, w: (np.asarray(u) + w <= 1).astype(int), seed=4).fraction == 1.0
+    verdict = judge(half, lambda u, w: np.asarray(u) + w < 1, seed=4)
+    assert verdict.fraction == 0.0
+    assert "False where the answer is True, at 9 of" in verdict.message
