@@ -124,16 +124,16 @@ def text(verdict: Verdict | Card) -> str:
     lines = [f"[{sign} {word}] {_clean(card.title)}"]
     for heading, said in card.parts:
         shown = _clean(said, LONGEST).replace("`", "")
-        lines.append(f"{heading}: {shown}" if heading else shown)
+        lines.append(f"{_clean(heading)}: {shown}" if heading else shown)
     if alike := _all_alike(card.cases):
-        lines.append(f"Data sets: {alike}")
+        lines.append(f"Data sets: {_clean(alike, LONGEST)}")
     elif card.cases:
         lines.append("Data sets:")
         lines += [
             f"  {sign} {': '.join(part for part in (name, said) if part)}" for sign, name, said in _rows_as_text(card.cases)
         ]
     for heading, said in card.notes:
-        lines.append(f"{heading}:")
+        lines.append(f"{_clean(heading)}:")
         lines += [f"    {line}" for line in _clean(said, LONGEST_NOTE, lines=True).splitlines()]
     return "\n".join(lines)
 
@@ -323,7 +323,7 @@ def _rows_as_text(cases: Sequence[Case]) -> Iterable[tuple[str, str, str]]:
         more += [f"at {told['at']}"] if "at" in told else []
         more += [f"yours {told['yours']}"] if "yours" in told else []
         more += [f"reference {told['reference']}"] if "reference" in told else []
-        yield sign, _data_of(case), _clean("; ".join([said, *more]))
+        yield sign, _clean(_data_of(case)), _clean("; ".join([said, *more]))
 
 
 def _numbers(nested: Any) -> np.ndarray[Any, np.dtype[np.float64]]:

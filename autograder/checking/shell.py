@@ -35,7 +35,7 @@ class Failure:
 
 
 _failures: list[Failure] = []
-_missing: Callable[[str], Mapping[str, Any]] | None = None
+_listener: Callable[[str], Mapping[str, Any]] | None = None
 
 
 def running() -> Any | None:
@@ -89,11 +89,11 @@ def failure_of(name: str) -> Failure | None:
 
 def listen(missing: Callable[[str], Mapping[str, Any]]) -> None:
     """Begin to remember, once for each kernel. ``missing(name)`` gives the card for ``check(name)`` without that name."""
-    global _missing
+    global _listener
     here = running()
-    if here is None or _missing is not None:
+    if here is None or _listener is not None:
         return
-    _missing = missing
+    _listener = missing
     here.events.register("post_run_cell", _after)
     if not here.custom_exceptions:  # somebody else's handler stays
         here.set_custom_exc((NameError,), _on_name_error)
@@ -145,8 +145,8 @@ def _on_name_error(here: Any, kind: type, error: BaseException, trace: Traceback
     bundle = None
     with contextlib.suppress(Exception):  # a fault of ours must not hide the learner's error
         name = _checked_name(error, trace)
-        if name is not None and _missing is not None:
-            bundle = _missing(name)
+        if name is not None and _listener is not None:
+            bundle = _listener(name)
     if bundle is None:
         here.showtraceback((kind, error, trace), tb_offset=tb_offset, running_compiled_code=True)
         return

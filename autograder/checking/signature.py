@@ -68,19 +68,17 @@ def trouble_with(exercise: Exercise, f: Callable[..., Any]) -> Trouble | None:
 def _difference(wanted: list[str], names: list[str], needed: list[str]) -> str:
     missing = [name for name in wanted if name not in names]
     extra = [name for name in needed if name not in wanted]
-    said = []
+    renamed = []
     for name in list(missing):
         near = difflib.get_close_matches(name.lower(), [one.lower() for one in extra], n=1, cutoff=0.5)
         like = next((one for one in extra if near and one.lower() == near[0]), None)
         if like is not None:
             missing.remove(name)
             extra.remove(like)
-            said.append(f"`{name}` is called `{like}`.")
-    if missing:
-        said.insert(0, f"Missing: {_list(missing)}.")
-    if extra:
-        said.insert(len(said) and 1, f"Too many: {_list(extra)}.")
-    return " ".join(said) or f"It takes {len(names)} arguments, wanted are {len(wanted)}."
+            renamed.append(f"`{name}` is called `{like}`.")
+    said = [f"Missing: {_list(missing)}."] if missing else []
+    said += [f"Too many: {_list(extra)}."] if extra else []
+    return " ".join([*said, *renamed]) or f"It takes {len(names)} arguments, wanted are {len(wanted)}."
 
 
 def _list(names: list[str]) -> str:

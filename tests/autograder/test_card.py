@@ -30,9 +30,7 @@ def verdict(outcome="partial", tier="mistake", fraction=0.25, **more):
         "message": "A message.",
         "parts": PARTS,
         "cases": (
-            Case(
-                "lecture", tier, 0.53, (0.5, 0.25), "(1.5, 1, 1)", "(-2, 0, 1)", mistake="no_2pi" if tier == "mistake" else None
-            ),
+            Case("lecture", tier, 0.53, (0.5, 0.25), "(1.5, 1, 1)", "(-2, 0, 1)", mistake=slip),
             Case("unit", "identical", 0.0, (0.0, 0.0), "(1, 0, 0)", "(1, 0, 0)", blind=True),
             Case("drawn", tier, hidden=True),
         ),
