@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import datetime
 import weakref
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,8 +17,9 @@ from autograder.notebook.master import Master
 from autograder.notebook.rebuild import Rebuilt, rebuild
 from autograder.notebook.run import Ran, run
 from autograder.notebook.secret import hidden_seed
-from autograder.notebook.session import OpenSession, needs, opened
+from autograder.notebook.session import OpenSession, opened
 from autograder.notebook.submission import digest, parse, read_file
+from autograder.notebook.timestamps import FILE, handed_in
 
 
 @dataclass
@@ -56,6 +58,13 @@ class Context:
     def data(self) -> bytes:
         """The submitted notebook: a regular file, never through a link, bounded."""
         return read_file(self.submitted / f"{self.notebook}.ipynb", self.course.bounds.notebook)
+
+    def timestamp(self) -> datetime.datetime | None:
+        """When it was handed in, if the folder says."""
+        try:
+            return handed_in({FILE: read_file(self.submitted / FILE, 1000)})
+        except OSError:
+            return None
 
     def rebuilt(self, *, keep_outputs: bool = False) -> Rebuilt:
         """The notebook that is graded."""
@@ -120,7 +129,7 @@ def _sandbox(converter: Any, course: Course, exercises: Mapping[str, Exercise]) 
     """One sandbox for each of nbgrader's runs, started with its first notebook and closed with its converter."""
     if converter not in _sandboxes:
         stack = contextlib.ExitStack()
-        policy = needs(exercises.values(), course.packages)
-        _sandboxes[converter] = stack.enter_context(opened(policy, course.level, course.timeout))
+        opening = opened(exercises.values(), course.packages, course.level, course.timeout)
+        _sandboxes[converter] = stack.enter_context(opening)
         weakref.finalize(converter, stack.close)
     return _sandboxes[converter]

@@ -82,7 +82,7 @@ class SaveAutoGrades(NbGraderPreprocessor):  # type: ignore[misc]
             built = dataclasses.replace(rebuild(nb, context.master, keep_outputs=True), notebook=nb)
         given = marks(built, ran)
         annotate(built, given)
-        record = Record(context.student, None, {context.notebook: NotebookMarks(given, unanswered(built))})
+        record = Record(context.student, context.timestamp(), {context.notebook: NotebookMarks(given, unanswered(built))})
         with Gradebook(resources["nbgrader"]["db_url"]) as book:
             book.write(context.row, [record], create_students=False)
         return _node(nb), resources

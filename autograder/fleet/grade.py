@@ -25,10 +25,10 @@ from autograder.fleet import publish
 from autograder.fleet.journal import Entry, Journal, only_grader
 from autograder.fleet.one import Outcome, Plan, grade_one
 from autograder.fleet.result import GradeReport, StudentReport
-from autograder.fleet.timestamps import FILE, handed_in
 from autograder.gradebook import Gradebook, NotebookMarks, Record, Standing
-from autograder.notebook.session import needs, opened
+from autograder.notebook.session import opened
 from autograder.notebook.submission import read_file, read_folder
+from autograder.notebook.timestamps import FILE, handed_in
 
 log = logging.getLogger(__name__)
 # formgrader writes ids into its pages as they are
@@ -234,7 +234,7 @@ class _Run:
     def _plan(self) -> Iterator[Plan]:
         checked = [cell.exercise for master in self.masters.values() for cell in master.graded if cell.exercise]
         exercises = {name: found for name in checked if (found := self.course.exercise(name)) is not None}
-        with opened(needs(exercises.values(), self.course.packages), self.level, self.course.timeout) as open_session:
+        with opened(exercises.values(), self.course.packages, self.level, self.course.timeout) as open_session:
             yield Plan(
                 self.course, self.row, self.masters, self.course.instructor_files(self.row.name), self.course.secret(),
                 exercises.get, open_session,

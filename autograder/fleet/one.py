@@ -15,7 +15,6 @@ from autograder.course import Course
 from autograder.errors import SubmissionError
 from autograder.exercise import Exercise
 from autograder.fleet.result import CellReport, Status, StudentReport
-from autograder.fleet.timestamps import FILE, handed_in
 from autograder.gradebook import AssignmentRow, NotebookMarks, Record
 from autograder.notebook import limit
 from autograder.notebook.marks import Mark
@@ -26,6 +25,7 @@ from autograder.notebook.score import annotate, marks, unanswered
 from autograder.notebook.secret import hidden_seed
 from autograder.notebook.session import OpenSession
 from autograder.notebook.submission import Submission, digest, parse
+from autograder.notebook.timestamps import FILE, handed_in
 from autograder.notebook.written import dumps
 
 
@@ -114,8 +114,8 @@ class _Work:
         self.marks[name] = NotebookMarks(given, unanswered(built))
         self.notes += [f"{name}.ipynb: {note.cell + ': ' if note.cell else ''}{note.text}" for note in built.notes]
         if ran.restarts > 0:
-            again = "a cell ended" if ran.restarts == 1 else f"cells {ran.restarts} times ended"
-            self.notes.append(f"{name}.ipynb: {again} its process; the cells after it ran in a fresh one")
+            ended = "a cell ended its process" if ran.restarts == 1 else f"cells ended their process {ran.restarts} times"
+            self.notes.append(f"{name}.ipynb: {ended}; the cells after it ran in a fresh one")
         self.faults += [f"{name}.ipynb: {fault}" for fault in ran.faults]
         self._report(name, master, given, built, ran)
         self.written[f"{name}.ipynb"] = dumps(built.notebook)

@@ -119,6 +119,7 @@ DIFFERENCES = (
     ("a tag such as skip-execution on a graded cell of the submission", "not run, full points", "ignored: it is run"),
     ("a graded cell that is there twice", "the run for the whole class stops", "the last counts, with a manual look"),
     ("a graded cell that was deleted from a resubmission", "keeps the old mark", "no mark, and a manual look"),
+    ("a time zone written +0100 in timestamp.txt", "taken for 100 seconds", "one hour"),
     ("a test cell that was not executed", "full points", "no mark, and a manual look"),
 )
 """Where we differ from nbgrader's scores: (what, nbgrader, here)."""

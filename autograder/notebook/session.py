@@ -24,20 +24,29 @@ def needs(exercises: Iterable[Exercise], packages: Packages) -> Policy:
     return Policy(packages=tuple(dict.fromkeys([*BASIC, *packages, *allowed])))
 
 
-def limits(timeout: float | None) -> Limits:
-    """The sandbox's limits with nbgrader's ``Execute.timeout`` as the CPU time of a cell; None: our own."""
-    return Limits() if timeout is None else dataclasses.replace(Limits(), cell_cpu=timeout)
+def limits(timeout: float | None, *, exercises: bool) -> Limits:
+    """The sandbox's limits with nbgrader's ``Execute.timeout`` as the CPU time of a cell; None: our own.
+
+    Cells of an exercise notebook take milliseconds, and each that calls an endless loop takes all it may have: ten seconds are
+    enough there. Nothing is known of the cells of an ordinary course, so they have the 30 seconds that nbgrader gives.
+    """
+    stock = Limits()
+    own = Limits(cell_cpu=10.0) if exercises else Limits(cell_cpu=30.0, notebook_cpu=2.5 * stock.notebook_cpu)
+    return own if timeout is None else dataclasses.replace(own, cell_cpu=timeout)
 
 
 @contextlib.contextmanager
-def opened(policy: Policy, level: str, timeout: float | None) -> Iterator[OpenSession]:
-    """Start a sandbox; yields what opens a session in it, from any thread, given the files that the notebook finds.
+def opened(exercises: Iterable[Exercise], packages: Packages, level: str, timeout: float | None) -> Iterator[OpenSession]:
+    """Start the sandbox of an assignment; yields what opens a session in it, given the files that the notebook finds.
+
+    Sessions may be opened from any thread.
 
     Raises
     ------
     IsolationError
         If this machine does not give the level.
     """
-    bounds = limits(timeout)
-    with Sandbox(policy=policy, level=level) as box:
+    posed = list(exercises)
+    bounds = limits(timeout, exercises=bool(posed))
+    with Sandbox(policy=needs(posed, packages), level=level) as box:
         yield lambda files: box.open(files=files, limits=bounds, environment={"NBGRADER_EXECUTION": "autograde"})

@@ -1,8 +1,12 @@
-"""When a submission was handed in: ``timestamp.txt``, read as nbgrader reads it."""
+"""When a submission was handed in: ``timestamp.txt``, read as nbgrader reads it, but for one slip.
+
+nbgrader takes the zone of "13:00:00 +0100" for 100 seconds. Here it is one hour.
+"""
 
 from __future__ import annotations
 
 import datetime
+import re
 from collections.abc import Mapping
 
 from dateutil import parser, tz  # type: ignore[import-untyped]
@@ -10,6 +14,7 @@ from dateutil import parser, tz  # type: ignore[import-untyped]
 from autograder.errors import SubmissionError
 
 FILE = "timestamp.txt"
+_OFFSET = re.compile(r"([+-])(\d\d):?(\d\d)")
 
 
 def handed_in(files: Mapping[str, bytes]) -> datetime.datetime | None:
@@ -34,10 +39,8 @@ def parse_utc(text: str) -> datetime.datetime:
     when: datetime.datetime
     parts = text.split(" ")
     if len(parts) == 3:
-        try:
-            zone: object = int(parts[2])
-        except ValueError:
-            zone = tz.gettz(parts[2])
+        numeric = _OFFSET.fullmatch(parts[2])
+        zone = int(f"{numeric[1]}1") * 60 * (60 * int(numeric[2]) + int(numeric[3])) if numeric else tz.gettz(parts[2])
         when = parser.parse(" ".join([*parts[:2], "TZ"]), tzinfos={"TZ": zone})
     else:
         when = parser.parse(text)

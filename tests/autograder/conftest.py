@@ -1,0 +1,199 @@
+"""Courses for the tests of grading: an ordinary nbgrader course with every kind of cell, and ours.
+
+Both are made once by nbgrader itself (``generate_assignment``) and copied for each test that changes something.
+"""
+
+import json
+import os
+import shutil
+import sqlite3
+import sys
+from pathlib import Path
+
+import pytest
+
+ORDINARY_CONFIG = """
+c = get_config()
+c.CourseDirectory.course_id = "ordinary"
+c.LateSubmissionPlugin.penalty_method = "zero"
+"""
+BRIDGE = "from autograder import bridge\nbridge.configure(c)\n"
+
+
+@pytest.fixture(autouse=True)
+def _nbgrader_finds_alembic(monkeypatch):
+    """nbgrader calls `alembic` by name when it makes a gradebook."""
+    monkeypatch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+
+
+def nbgrader_cell(name, source, kind="code", *, grade=False, solution=False, locked=False, task=False, points=None):
+    """A cell of a source notebook."""
+    meta = {"grade_id": name, "grade": grade, "solution": solution, "locked": locked, "task": task, "schema_version": 3}
+    if points is not None:
+        meta["points"] = points
+    return plain_cell(source, kind, name.replace("_", "-")) | {"metadata": {"nbgrader": meta}}
+
+
+def plain_cell(source, kind="code", id="plain"):
+    """A cell that nbgrader does not know."""
+    extra = {"outputs": [], "execution_count": None} if kind == "code" else {}
+    return {"cell_type": kind, "id": id, "metadata": {}, "source": source, **extra}
+
+
+def as_notebook(*cells):
+    """A notebook of these cells, as text."""
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    whole = {"nbformat": 4, "nbformat_minor": 5, "metadata": {"kernelspec": kernel}, "cells": list(cells)}
+    return json.dumps(whole)
+
+
+HIDDEN = "assert square(2) == 4\n### BEGIN HIDDEN TESTS\nassert square(secret_number()) == 144\n### END HIDDEN TESTS"
+ANSWER = "Why?\n=== BEGIN MARK SCHEME ===\nthe secret scheme\n=== END MARK SCHEME ==="
+SQUARE = "def square(x):\n    ### BEGIN SOLUTION\n    return x * x\n    ### END SOLUTION"
+ORDINARY = {
+    "one": as_notebook(
+        plain_cell("# Ordinary\n\nWith $x^2$ and <b>bold</b> text.", "markdown", "intro"),
+        nbgrader_cell("helper", "def secret_number():\n    return 12", locked=True),
+        nbgrader_cell(
+            "square", "def square(x):\n    ### BEGIN SOLUTION\n    return x * x\n    ### END SOLUTION", solution=True
+        ),
+        nbgrader_cell("test_square", HIDDEN, grade=True, locked=True, points=2),
+        nbgrader_cell("half", "def half(x):\n    ### BEGIN SOLUTION\n    return x / 2\n    ### END SOLUTION", solution=True),
+        nbgrader_cell("test_half", "3.0 * (half(4) == 2) if half(1) else 1.5", grade=True, locked=True, points=3),
+        nbgrader_cell("code_answer", "### BEGIN SOLUTION\nx = 1\n### END SOLUTION", grade=True, solution=True, points=1.5),
+        nbgrader_cell("why", "Because of the data.", "markdown", grade=True, solution=True, points=4),
+        nbgrader_cell("essay", ANSWER, "markdown", task=True, points=5),
+    ),
+    "two": as_notebook(
+        nbgrader_cell("add", "def add(a, b):\n    ### BEGIN SOLUTION\n    return a + b\n    ### END SOLUTION", solution=True),
+        nbgrader_cell("test_add", "assert add(1, 2) == 3", grade=True, locked=True, points=1),
+    ),
+}
+
+
+def generated(folder, config, sources, name):
+    """A course with one assignment released by nbgrader itself."""
+    from nbgrader.apps import NbGraderAPI
+    from traitlets.config import Config
+
+    place = folder / "source" / name
+    place.mkdir(parents=True)
+    (folder / "nbgrader_config.py").write_text(config)
+    for notebook, text in sources.items():
+        (place / f"{notebook}.ipynb").write_text(text)
+    (place / "data.txt").write_text("of the instructor\n")
+    loaded = Config()
+    loaded.CourseDirectory.root = str(folder)
+    loaded.CourseDirectory.course_id = "ordinary"
+    result = NbGraderAPI(config=loaded).generate_assignment(name, create=True)
+    assert result["success"], result
+    return folder
+
+
+@pytest.fixture(scope="session")
+def ordinary_template(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+        return generated(tmp_path_factory.mktemp("ordinary"), ORDINARY_CONFIG, ORDINARY, "ps1")
+
+
+@pytest.fixture(scope="session")
+def surfaces_template(tmp_path_factory):
+    """A course with our A1, as `directrix new` and `directrix release` make it."""
+    from autograder import authoring
+
+    folder = tmp_path_factory.mktemp("courses") / "surfaces"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+        authoring.new_course(folder, ("A1",))
+        authoring.release(folder, "A1")
+    return folder
+
+
+class Classroom:
+    """A course folder in which tests hand in."""
+
+    def __init__(self, folder, assignment):
+        self.folder, self.assignment = folder, assignment
+
+    def released(self, notebook):
+        return json.loads((self.folder / "release" / self.assignment / f"{notebook}.ipynb").read_text())
+
+    def hand_in(self, student, notebooks, *, files=(), timestamp=None):
+        """Notebooks by name: a dict of sources by grade id, a function that changes the released notebook, or raw text."""
+        place = self.folder / "submitted" / student / self.assignment
+        shutil.rmtree(place, ignore_errors=True)
+        place.mkdir(parents=True)
+        for name, change in notebooks.items():
+            nb = self.released(name)
+            if isinstance(change, dict):
+                for cell in nb["cells"]:
+                    named = cell["metadata"].get("nbgrader", {}).get("grade_id")
+                    cell["source"] = change.get(named, cell["source"])
+            elif callable(change):
+                nb = change(nb) or nb
+            (place / f"{name}.ipynb").write_text(change if isinstance(change, str) else json.dumps(nb))
+        for name, data in dict(files).items():
+            (place / name).write_bytes(data)
+        if timestamp is not None:
+            (place / "timestamp.txt").write_text(timestamp)
+        return place
+
+    def course(self):
+        from autograder.fleet import Course
+
+        return Course(self.folder)
+
+    def configure(self, more):
+        path = self.folder / "nbgrader_config.py"
+        path.write_text(path.read_text() + more)
+
+    def sql(self, statement, *values):
+        with sqlite3.connect(self.folder / "gradebook.db") as connection:
+            return connection.execute(statement, values).fetchall()
+
+    def tables(self):
+        """The gradebook in words that do not depend on its random ids."""
+        sub = "join submitted_notebook sn on x.notebook_id = sn.id join submitted_assignment s on sn.assignment_id = s.id"
+        cell = f"{sub} join notebook n on sn.notebook_id = n.id join base_cell b on x.cell_id = b.id"
+        columns = "x.auto_score, x.manual_score, x.extra_credit, x.needs_manual_grade"
+        return {
+            "grades": sorted(self.sql(f"select s.student_id, n.name, b.name, b.type, {columns} from grade x {cell}")),
+            "comments": sorted(
+                self.sql(f"select s.student_id, n.name, b.name, x.auto_comment, x.manual_comment from comment x {cell}"),
+                key=repr,
+            ),
+            "submissions": sorted(self.sql("select student_id, timestamp, extension from submitted_assignment"), key=repr),
+            "notebooks": sorted(
+                self.sql(
+                    "select s.student_id, n.name, sn.flagged, sn.late_submission_penalty from submitted_notebook sn "
+                    "join submitted_assignment s on sn.assignment_id = s.id join notebook n on sn.notebook_id = n.id"
+                ),
+                key=repr,
+            ),
+            "students": sorted(self.sql("select * from student"), key=repr),
+            "courses": sorted(self.sql("select * from course")),
+        }
+
+    def autograded(self):
+        root = self.folder / "autograded"
+        return {str(path.relative_to(root)): path.read_bytes() for path in sorted(root.rglob("*")) if path.is_file()}
+
+    def copy(self, folder):
+        shutil.copytree(self.folder, folder)
+        return Classroom(folder, self.assignment)
+
+
+@pytest.fixture
+def ordinary(ordinary_template, tmp_path):
+    return Classroom(shutil.copytree(ordinary_template, tmp_path / "ordinary"), "ps1")
+
+
+@pytest.fixture
+def surfaces(surfaces_template, tmp_path):
+    return Classroom(shutil.copytree(surfaces_template, tmp_path / "surfaces"), "A1")
+
+
+@pytest.fixture(scope="session")
+def bridge_line():
+    return BRIDGE
