@@ -54,7 +54,9 @@ def compare(
     ShapeError
         If the arrays do not fit each other.
     """
-    return encode(comparison(parameters, expected, yours, worst=worst, size=size, names=names, title=title, same=same))
+    built = comparison(parameters, expected, yours, worst=worst, size=size, names=names, title=title, same=same)
+    plain: dict[str, Any] = encode(built)
+    return plain
 
 
 def comparison(
@@ -162,7 +164,7 @@ def _alone(axes: list[Array], points: Array, name: str, title: str | None, same:
     if len(axes) == 1:
         data = [traces.curve(points, axes[0], colour=palette.U, name=name)]
     else:
-        data = [traces.surface(points, *axes, name=name), *_lines(points, *axes, size_of(points), "scene")]
+        data = [traces.surface(points, *axes, name=name), *_lines(points, axes[0], axes[1], size_of(points), "scene")]
         words.append(legend())
     figure |= {
         "scene": scene(Box.around(points)),

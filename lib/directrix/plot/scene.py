@@ -14,7 +14,7 @@ from directrix.plot.sampling import Array, bounds
 # Looking down on the corner between +x and -y, z upwards: u and w of the known forms start towards the reader.
 CORNER = (1.18, -1.37, 0.86)
 EYE = dict(zip("xyz", CORNER, strict=True))
-VIEWS = {
+VIEWS: dict[str, dict[str, dict[str, float]]] = {
     "3-D": {"eye": EYE, "up": {"x": 0, "y": 0, "z": 1}},
     "from +x": {"eye": {"x": 1.9, "y": 0, "z": 0}, "up": {"x": 0, "y": 0, "z": 1}},
     "from −y": {"eye": {"x": 0, "y": -1.9, "z": 0}, "up": {"x": 0, "y": 0, "z": 1}},
@@ -39,7 +39,8 @@ class Box:
         # A figure of a single point still needs a box; and float32, in which it is drawn, needs room to tell numbers apart.
         least = 0.12 * largest or max(float(np.abs(high).max()), 1.0)
         grow = np.maximum(0.06 * largest, (least - extent) / 2)
-        return cls(tuple(map(float, low - grow)), tuple(map(float, high + grow)))
+        a, b = (low - grow).tolist(), (high + grow).tolist()
+        return cls((a[0], a[1], a[2]), (b[0], b[1], b[2]))
 
     @property
     def size(self) -> float:

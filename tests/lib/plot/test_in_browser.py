@@ -1,5 +1,6 @@
 """A static page in Chromium without a network: hover, linked cameras, words for the picture, contexts that are given back."""
 
+import json
 import re
 
 import numpy as np
@@ -159,6 +160,27 @@ def test_figures_far_away_give_their_contexts_back(opened, two):
         shown.wait_for_timeout(300)
         assert canvases.count() == 2
         assert not shown.evaluate(drawn, 4 - place)
+
+
+def test_in_jupyterlab_it_is_a_prebuilt_extension(browser):
+    """There the same file registers the container that package.json names, and draws nothing by itself."""
+    package = json.loads((page.LABEXTENSIONS / "directrix-figures" / "package.json").read_text())
+    assert package["jupyterlab"]["_build"] == {"load": "static/figures.js", "extension": "./extension"}
+    lab = browser.new_page()
+    lab.set_content("<script id='jupyter-config-data' type='application/json'>{}</script>")
+    lab.add_script_tag(content=page.figures_js())
+    plugin = lab.evaluate(
+        """async name => {
+            const container = window._JUPYTERLAB[name];
+            await container.init({});
+            const plugin = (await container.get("./extension"))().default;
+            plugin.activate({});
+            return [plugin.id, plugin.autoStart];
+        }""",
+        package["name"],
+    )
+    lab.close()
+    assert plugin == ["directrix-figures:plugin", True]
 
 
 def test_hostile_words_stay_words(opened):
