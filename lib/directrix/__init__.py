@@ -47,6 +47,17 @@ _NAMES = {
     "BezierHyperpatch": "solids.polynomial",
     "HermiteHyperpatch": "solids.polynomial",
     "NurbsHyperpatch": "solids.spline",
+    # conversion
+    "elevate": "conversion",
+    "insert_knot": "conversion",
+    "remove_knot": "conversion",
+    "split_bezier": "conversion",
+    "to_algebraic": "conversion",
+    "to_bezier": "conversion",
+    "to_bspline": "conversion",
+    "to_hermite": "conversion",
+    "to_nurbs": "conversion",
+    "to_points": "conversion",
     # inspection
     "conicity": "inspection",
     "cylindricity": "inspection",
