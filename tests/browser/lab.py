@@ -8,6 +8,13 @@ from pathlib import Path
 from tests.browser.conftest import jupyterlab
 
 
+def keep(picture: bytes, name: str) -> bytes:
+    """The picture again; a copy of it goes to $DIRECTRIX_SHOTS, where people look at it."""
+    if folder := os.environ.get("DIRECTRIX_SHOTS"):
+        (Path(folder) / f"{re.sub('[^a-z0-9-]', '_', name)}.png").write_bytes(picture)
+    return picture
+
+
 class Lab:
     """JupyterLab on a folder, in a page; ``with Lab(...)`` starts and ends the server."""
 
@@ -99,10 +106,7 @@ class Lab:
 
     def shot(self, element, name: str) -> bytes:
         """A screenshot of an element; kept in $DIRECTRIX_SHOTS for people to look at."""
-        picture = element.screenshot()
-        if folder := os.environ.get("DIRECTRIX_SHOTS"):
-            (Path(folder) / f"{re.sub('[^a-z0-9-]', '_', name)}.png").write_bytes(picture)
-        return picture
+        return keep(element.screenshot(), name)
 
     def _cell(self, index: int):
         return self.page.locator(f".jp-NotebookPanel:not(.lm-mod-hidden) .jp-Cell[data-windowed-list-index='{index}']")
