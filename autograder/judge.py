@@ -15,7 +15,7 @@ from autograder.comparison.answers import Numbers, Raised
 from autograder.comparison.asking import Asked, ask_all
 from autograder.comparison.gates import Gated, through_gates
 from autograder.comparison.target import Target, targets
-from autograder.diagnosis.explain import Explanation, Parts, pair_written, spoken_answer, worst_finding, worst_index
+from autograder.diagnosis.explain import Explanation
 from autograder.diagnosis.figure import figure_of
 from autograder.diagnosis.ladder import (
     DEAR,
@@ -29,6 +29,7 @@ from autograder.diagnosis.ladder import (
     recognise_more,
     search,
 )
+from autograder.diagnosis.wording import Parts, pair_written, spoken_answer, worst_finding, worst_index
 from autograder.errors import ExerciseError, SandboxError
 from autograder.exercise import PUBLIC_SEED, REFUSAL_CREDIT, Exercise
 from autograder.messages import say

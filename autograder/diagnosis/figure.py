@@ -13,8 +13,8 @@ import numpy as np
 from autograder.comparison.answers import Array, Numbers, ask
 from autograder.comparison.samples import read_only
 from autograder.comparison.target import Target
-from autograder.diagnosis.explain import worst_index
 from autograder.diagnosis.ladder import Finding
+from autograder.diagnosis.wording import worst_index
 from autograder.result import Figure
 
 LINES = {1: 129, 2: 33}
