@@ -83,7 +83,7 @@ def comparison(
     draw = _two_curves if len(axes) == 1 else _two_scenes
     built = draw(axes, right, left, off, place, names, title)
     if far:
-        built["layout"]["annotations"].append(word(far, 0.69 if len(axes) == 2 else 0.5, 0.02))
+        built["layout"]["annotations"].append(word(far, sum(DOMAINS[1]) / 2 if len(axes) == 2 else 0.5, 0.93))
         built["layout"]["meta"]["alt"] += f" {far}."
     return built
 
