@@ -88,6 +88,7 @@ def options(seen: View, level: str) -> list[str]:
         "--new-session",
         "--as-pid-1",
     ]
+    command += ["--setenv", "LD_LIBRARY_PATH", "/python/lib"]  # for the interpreter, not for bubblewrap itself
     for source, place in seen.binds:
         command += ["--ro-bind", source, place]
     for device in DEVICES:
@@ -121,7 +122,7 @@ def _as_root(seen: View, binary: str, control: int, errors: IO[bytes], policy: P
     start = "import sys; sys.path.insert(0, sys.argv[1]); from autograder.sandbox.rootprep import main; main()"
     package_root = str(Path(__file__).resolve().parents[2])
     process = subprocess.Popen(
-        [sys.executable, "-I", "-S", "-c", start, package_root], env=seen.environment | {"LD_LIBRARY_PATH": ""},
+        [sys.executable, "-I", "-S", "-c", start, package_root], env=seen.environment,
         pass_fds=[control], stdin=subprocess.PIPE, stdout=errors, stderr=errors, cwd="/",
     )  # fmt: skip
     assert process.stdin is not None

@@ -9,6 +9,7 @@ from __future__ import annotations
 import glob
 import json
 import os
+import platform
 import sys
 import sysconfig
 from dataclasses import dataclass, field
@@ -46,7 +47,7 @@ class View:
 
     def command(self, control: int, level: str, policy: Policy) -> list[str]:
         """The zygote's command line."""
-        settings = {"control": control, "level": level, "preload": list(policy.preload)}
+        settings = {"control": control, "level": level, "preload": list(policy.preload), "version": sys.version}
         start = f"import sys; sys.path[:0] = {self.path[:1]!r}; sys.path += {self.path[1:]!r}; "
         start += "from autograder.sandbox.guest.zygote import main; main(sys.argv[1])"
         return [self.python, "-s", "-P", "-S", "-c", start, json.dumps(settings)]
@@ -65,14 +66,17 @@ def view(policy: Policy) -> View:
 def _system(view: View) -> None:
     """The C library and what else shared objects need; where such a folder is a link, a link."""
     for place in LIBRARIES:
+        # Debian and its kin keep shared libraries in a folder of their own; /usr/lib has whole applications beside it.
+        inner = f"{place}/{platform.machine()}-linux-gnu"
         if os.path.islink(place):
             view.links.append((os.readlink(place), place))
         else:
-            view.bind(place, place)
+            view.bind(*([inner] * 2 if os.path.isdir(inner) else [place] * 2))
     for place in (*STORES, *FILES):
         view.bind(os.path.realpath(place), place)
-    # The system's own Python packages lie inside /usr/lib; a learner could put them on the path.
-    view.hidden += [place for place in glob.glob("/usr/lib*/python3*/*-packages") if os.path.isdir(place)]
+    # Elsewhere the system's own Python packages lie inside; a learner could put them on the path.
+    whole = [source for source, _ in view.binds if source.endswith(("/lib", "/lib64"))]
+    view.hidden += [place for source in whole for place in glob.glob(f"{source}/python3*/*-packages") if os.path.isdir(place)]
 
 
 def _interpreter(view: View) -> None:
@@ -93,7 +97,7 @@ def _interpreter(view: View) -> None:
     view.python = f"/python/bin/{binary.name}"
     view.bind(binary, view.python)
     view.environment = {
-        "PATH": "/usr/bin", "LANG": "C.UTF-8", "HOME": "/scratch/home", "LD_LIBRARY_PATH": "/python/lib", "PYTHONHASHSEED": "0",
+        "PATH": "/usr/bin", "LANG": "C.UTF-8", "HOME": "/scratch/home", "PYTHONHASHSEED": "0",
         "PYTHONHOME": "/python", "MALLOC_ARENA_MAX": "2", "PLOTLY_RENDERER": "plotly_mimetype", **dict.fromkeys(THREADS, "1"),
     }  # fmt: skip
 

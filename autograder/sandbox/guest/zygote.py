@@ -25,6 +25,10 @@ from autograder.sandbox.guest.shell import Shell
 def main(arguments: str) -> None:
     """Prepare, say that it is ready, then clone a child for each request. ``arguments`` is JSON from the launcher."""
     settings = json.loads(arguments)
+    if sys.version != settings["version"]:
+        raise RuntimeError(
+            f"inside runs Python {sys.version}, outside {settings['version']}: another libpython was found first"
+        )
     control = socket.socket(fileno=settings["control"])
     zygote = Zygote(control, settings["level"], settings["preload"])
     control.send(json.dumps({"ready": True}).encode())
