@@ -17,15 +17,22 @@ from directrix.errors import DegenerateError, DomainError, NumberError, OrderErr
 Array = NDArray[np.float64]
 
 EDGE = 1e-12  # a parameter this far outside [0, 1] is rounding of the caller's; further out is an error
+LARGEST = 1e75  # of a number or coordinate: products of four of them are still floats
 COLLINEAR = 1e-12  # sine of the angle below which two directions are one
 
 
 def array(name: str, value: Any) -> Array:
-    """A fresh float64 array of finite real numbers, of any shape."""
+    """A fresh float64 array of finite real numbers of at most 1e75, of any shape."""
     given = _real(name, value)
     if not np.isfinite(given).all():
         raise NumberError(
             f"{name} must be finite; got {_first_bad(given)}. Look for a division by zero in what made it.", name=name
+        )
+    if given.size and (most := float(np.abs(given).max())) > LARGEST:
+        raise NumberError(
+            f"{name} must be at most {LARGEST:g} in size; got {most:g}. Products of such numbers overflow: choose a larger unit.",
+            name=name,
+            got=most,
         )
     return np.array(given, dtype=np.float64)
 
@@ -124,7 +131,7 @@ def net(name: str, value: Any, *, least: int = 2) -> Array:
 
 
 def weights(name: str, value: Any, shape: tuple[int, ...]) -> Array:
-    """Weights, one for each control point, all above 0."""
+    """Weights, one for each control point, all above 0 (and at least 1e-75, so that their ratios do not overflow)."""
     given = array(name, value)
     if given.shape != shape:
         raise ShapeError(
@@ -138,6 +145,8 @@ def weights(name: str, value: Any, shape: tuple[int, ...]) -> Array:
             name=name,
             got=float(given[where]),
         )
+    if given.size and given.min() < 1 / LARGEST:
+        raise WeightError(f"{name} must be at least {1 / LARGEST:g}; got {given.min():g}.", name=name, got=float(given.min()))
     return _locked(given)
 
 

@@ -30,7 +30,7 @@ def turn(t: Array, derivative: int = 0) -> tuple[Array, Array]:
     quarter = np.rint(4 * np.asarray(t, dtype=np.float64))
     rest = 2 * pi * (t - quarter / 4)  # within an eighth of a turn, where cos and sin lose nothing
     cos, sin = np.cos(rest), np.sin(rest)
-    which = (quarter.astype(np.int64) + derivative) % 4
+    which = np.mod(quarter + derivative, 4)
     odd, past = which % 2 == 1, which >= 2
     c, s = np.where(odd, -sin, cos), np.where(odd, cos, sin)
     scale = (2 * pi) ** derivative

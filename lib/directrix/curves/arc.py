@@ -66,11 +66,10 @@ class Arc(Curve):
     @property
     def axes(self) -> Array:
         """Rows e1, e2 of shape (2, 3): unit vectors in the plane of the arc, e1 x e2 = normal."""
-        e1 = -self.normal[0] * self.normal
-        e1[0] += 1.0
-        if checks.length(e1) < 1e-6:  # the normal is along x
-            e1 = -self.normal[1] * self.normal
-            e1[1] += 1.0
+        x, y, z = self.normal
+        e1 = np.array([y * y + z * z, -x * y, -x * z])  # the x axis less its part along the normal, without cancellation
+        if checks.length(e1) < 1e-9:
+            e1 = np.array([-y * x, x * x + z * z, -y * z])
         e1 /= checks.length(e1)
         return np.stack([e1, np.cross(self.normal, e1)]) + 0.0
 

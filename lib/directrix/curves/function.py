@@ -91,5 +91,5 @@ def as_curve(name: str, curve: Any) -> Curve:
 
 def _described(value: Any) -> str:
     if isinstance(value, list | tuple | np.ndarray):
-        return f"an array of shape {np.shape(value)}; for points use BezierCurve, PointCurve or BSplineCurve"
+        return f"{repr(value)[:60]}; for points use BezierCurve, PointCurve or BSplineCurve"
     return repr(value)[:60]

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 LEAST = 33  # samples each way of the look everywhere
 STARTS = 6  # places from which Newton's method sets out, for each point
 ROUNDS = 60  # damped Newton steps at most; quadratic convergence needs about six
+STRIDE = 1 / 16  # the longest step: a start stays in the valley that it was chosen for
 BATCH = 400_000  # distances held at once
 
 
@@ -82,7 +83,8 @@ def _descend(surface: Surface, target: Array, u: Array, w: Array) -> tuple[Array
         here, su, sw, suu, suw, sww = surface._jet_at(u[active], w[active], list(orders))
         away = here - target[active]
         step = _step(away, su, sw, (suu, suw, sww), u[active], w[active], damping[active])
-        new_u, new_w = (np.clip(old[active] + part, 0.0, 1.0) for old, part in zip((u, w), step, strict=True))
+        short = [np.clip(part, -STRIDE, STRIDE) for part in step]
+        new_u, new_w = (np.clip(old[active] + part, 0.0, 1.0) for old, part in zip((u, w), short, strict=True))
         after = surface(new_u, new_w) - target[active]
         better = dot(after, after) <= dot(away, away)
         moved = np.maximum(np.abs(new_u - u[active]), np.abs(new_w - w[active]))

@@ -7,7 +7,7 @@ chooses: an open mesh, u of shape (n, 1) against w of shape (1, m), goes to ``_m
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from directrix.transform import Transform
 
 Orders = Sequence[tuple[int, int]]
+BLOCK = 8192  # parameters worked on at a time where much is computed for each: what stays in a processor's cache
 FIRST = ((0, 0), (1, 0), (0, 1))
 SECOND = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 
@@ -104,6 +105,16 @@ class Surface(Frozen):
         inside the square of parameters, where all directions agree on one, else (0, 0, 0). Never NaN. At the apex of a cone
         the limit exists at each (u, 1), and is the normal of that ruling.
         """
+        u, w = checks.parameter("u", u), checks.parameter("w", w)
+        shape = checks.broadcast(u=u, w=w)
+        if np.prod(shape) <= 2 * BLOCK:
+            return self._normal(u, w)
+        result = np.moveaxis(np.empty((3, *shape)), 0, -1)
+        for rows in _blocks(shape):
+            result[rows] = self._normal(_rows_of(u, rows, shape), _rows_of(w, rows, shape))
+        return result
+
+    def _normal(self, u: Array, w: Array) -> Array:
         point, tangent_u, tangent_w = self._evaluate(u, w, FIRST)
         normal, regular = differential.unit_normal(point, tangent_u, tangent_w)
         if not regular.all():
@@ -350,6 +361,17 @@ def _full(value: Array, shape: tuple[int, ...]) -> Array:
     if value.shape == shape and value.flags.writeable:
         return value
     return np.array(np.broadcast_to(value, shape))
+
+
+def _blocks(shape: tuple[int, ...]) -> Iterator[slice]:
+    """Slices of the first axis that hold about BLOCK parameters each."""
+    step = max(1, BLOCK * shape[0] // int(np.prod(shape)))
+    return (slice(start, start + step) for start in range(0, shape[0], step))
+
+
+def _rows_of(given: Array, rows: slice, shape: tuple[int, ...]) -> Array:
+    """The part of a parameter array that belongs to these rows of the full shape; all of it, if it has one row for all."""
+    return given[rows] if given.ndim == len(shape) and len(given) == shape[0] > 1 else given
 
 
 def _part_of(breaks: Array, start: float, end: float) -> Array:

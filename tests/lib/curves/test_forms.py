@@ -248,7 +248,7 @@ def test_nurbs_refusals():
     """Weights that are missing, zero or negative."""
     refused(lambda: dx.NurbsCurve(P, [1, 2], 4), dx.ShapeError, r"weights must have shape \(7,\)")
     refused(lambda: dx.NurbsCurve(P, [1, 2, 0, 1, 1, 1, 1], 4), dx.WeightError, r"weights\[2\] is 0")
-    assert np.allclose(dx.NurbsCurve(P, [1, 2, 1e-300, 1, 1, 1, 1], 4)(1.0), P[-1])
+    assert np.allclose(dx.NurbsCurve(P, [1, 2, 1e-70, 1, 1, 1, 1], 4)(1.0), P[-1])
 
 
 @pytest.mark.parametrize(("weight", "kind"), [(0.5, "ellipse"), (1, "parabola"), (2, "hyperbola")])
@@ -310,7 +310,7 @@ def test_function_curve_derivatives():
         (lambda t: np.stack([t, np.where(t == 0.375, np.nan, t), t], -1), r"at u = 0.375 it gave \[0.375, nan, 0.375\]"),
         (lambda t: None, r"got \(\)"),
         (lambda t: "points", "could not convert string to float"),
-        ([(0, 0, 0), (1, 1, 1)], r"got an array of shape \(2, 3\); for points use BezierCurve"),
+        ([(0, 0, 0), (1, 1, 1)], r"got \[\(0, 0, 0\), \(1, 1, 1\)\]; for points use BezierCurve"),
         (3, "a curve must be a callable"),
     ],
 )
