@@ -62,7 +62,7 @@ ORDINARY = {
         nbgrader_cell("test_half", "3.0 * (half(4) == 2) if half(1) else 1.5", grade=True, locked=True, points=3),
         nbgrader_cell("code_answer", "### BEGIN SOLUTION\nx = 1\n### END SOLUTION", grade=True, solution=True, points=1.5),
         nbgrader_cell("why", "Because of the data.", "markdown", grade=True, solution=True, points=4),
-        nbgrader_cell("essay", ANSWER, "markdown", task=True, points=5),
+        nbgrader_cell("essay", ANSWER, "markdown", task=True, locked=True, points=5),
     ),
     "two": as_notebook(
         nbgrader_cell("add", "def add(a, b):\n    ### BEGIN SOLUTION\n    return a + b\n    ### END SOLUTION", solution=True),
@@ -180,8 +180,13 @@ class Classroom:
         return {str(path.relative_to(root)): path.read_bytes() for path in sorted(root.rglob("*")) if path.is_file()}
 
     def copy(self, folder):
-        shutil.copytree(self.folder, folder)
+        shutil.copytree(self.folder, folder, symlinks=True)
         return Classroom(folder, self.assignment)
+
+
+@pytest.fixture(scope="session")
+def classroom():
+    return Classroom
 
 
 @pytest.fixture

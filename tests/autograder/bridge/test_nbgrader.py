@@ -1,0 +1,140 @@
+"""Stock nbgrader commands with the one line of config give what `directrix grade` gives: same tables, same files."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from autograder import feedback, fleet
+
+RIGHT = {"square": "def square(x): return x * x", "half": "def half(x): return x / 2"}
+ADD = {"add": "def add(a, b): return a + b"}
+
+
+def nbgrader(folder, *command):
+    """Run a stock nbgrader command in a course folder."""
+    place = Path(sys.executable).parent
+    return subprocess.run(
+        [place / "nbgrader", *command], cwd=folder, capture_output=True, text=True, timeout=300,
+        env={**os.environ, "JUPYTER_CONFIG_DIR": str(folder / ".jupyter")},
+    )  # fmt: skip
+
+
+def duplicated(nb):
+    """A learner's notebook with a test cell pasted twice and a forged tag on another."""
+    twice = next(c for c in nb["cells"] if c["metadata"].get("nbgrader", {}).get("grade_id") == "test_square")
+    nb["cells"].insert(2, {**twice, "id": "copy", "source": "3"})
+    for cell in nb["cells"]:
+        cell["metadata"]["tags"] = ["skip-execution"]
+
+
+def well_behaved(room):
+    room.sql("update assignment set duedate = '2027-02-01 12:00:00.000000'")
+    room.hand_in("ada", {"one": {**RIGHT, "why": "It is so."}, "two": ADD}, timestamp="2027-02-01 11:00:00.000000 UTC")
+    room.hand_in("bob", {"one": {"square": "def square(x): return 4", "half": "def half(x): return 0"}, "two": {}})
+    room.hand_in("kim", {"one": {**RIGHT, "code_answer": "x = 2"}, "two": ADD}, timestamp="2027-02-03 11:00:00.000000 UTC")
+    room.hand_in("leo", {"one": RIGHT}, files={"mine.txt": b"kept"})
+    noisy = "import sys\ndef square(x):\n    print('!', file=sys.stderr)\n    return x * x"
+    room.hand_in("tim", {"one": {"square": noisy}, "two": ADD})
+
+
+def test_well_behaved_submissions_get_what_stock_nbgrader_gives(ordinary, tmp_path):
+    """No line of ours in the config: nbgrader's own Execute and its kernel, against our sandbox. All tables agree."""
+    well_behaved(ordinary)
+    stock = ordinary.copy(tmp_path / "stock")
+    done = nbgrader(stock.folder, "autograde", "ps1")
+    assert done.returncode == 0, done.stderr
+    graded = fleet.grade(ordinary.course(), "ps1")
+    assert graded.failures == ()
+    assert ordinary.tables() == stock.tables()
+    assert set(ordinary.autograded()) == set(stock.autograded())
+
+
+@pytest.fixture(scope="module")
+def both(ordinary_template, classroom, tmp_path_factory, bridge_line):
+    """Hostile and broken submissions too, graded by ours and by nbgrader with our line."""
+    folder = tmp_path_factory.mktemp("both")
+    ordinary = classroom(shutil.copytree(ordinary_template, folder / "ours"), "ps1")
+    well_behaved(ordinary)
+    ordinary.configure(bridge_line)
+    ordinary.hand_in("dup", {"one": duplicated, "two": ADD})
+    ordinary.hand_in("exit", {"one": {**RIGHT, "half": "import os; os._exit(0)"}, "two": ADD})
+    half = "import numpy as np\ndef half(x): return np.float64(x / 2)"
+    ordinary.hand_in("numpy", {"one": {**RIGHT, "half": half}, "two": ADD})
+    ordinary.hand_in("zig", {"one": "{broken", "two": ADD})
+    place = ordinary.hand_in("link", {"one": RIGHT, "two": ADD})
+    (place / "book.txt").symlink_to(ordinary.folder / "gradebook.db")
+    secret = ordinary.course().secret()
+    theirs = ordinary.copy(folder / "theirs")
+    assert theirs.course().secret() == secret
+    done = nbgrader(theirs.folder, "autograde", "ps1")
+    graded = fleet.grade(ordinary.course(), "ps1")
+    return ordinary, theirs, graded, done
+
+
+def test_the_one_line_gives_the_same_marks_and_the_same_files(both):
+    """The same tables for every submission that both can read, and byte for byte the same graded notebooks."""
+    ours, theirs, graded, done = both
+    assert done.returncode == 1  # the broken notebook, by name; the others went on
+    assert "zig" in done.stderr
+    assert [line.split(":")[0] for line in graded.broken] == ["zig"]
+
+    def readable(tables):
+        return {name: [row for row in rows if row[0] != "zig"] for name, rows in tables.items()}
+
+    assert readable(ours.tables()) == readable(theirs.tables())
+    mine = {name: data for name, data in ours.autograded().items() if not name.startswith("zig")}
+    assert mine == theirs.autograded()
+    assert "link/ps1/book.txt" not in mine
+
+
+def test_feedback_is_the_same_page_and_tells_no_secrets(both):
+    ours, theirs, _, _ = both
+    done = nbgrader(theirs.folder, "generate_feedback", "ps1")
+    assert done.returncode == 0, done.stderr
+    pages = feedback.write(ours.course(), "ps1")
+    for page in pages:
+        if "zig" in page.parts:
+            continue
+        assert page.read_bytes() == (theirs.folder / page.relative_to(ours.folder)).read_bytes(), page
+        html = page.read_text()
+        for hidden in ("secret_number()) == 144", "BEGIN HIDDEN", "the secret scheme"):
+            assert hidden not in html
+    again = {page: page.stat().st_mtime_ns for page in pages}
+    assert {page: page.stat().st_mtime_ns for page in feedback.write(ours.course(), "ps1")} == again
+
+
+def test_without_execution_nothing_has_a_mark(ordinary, bridge_line):
+    """nbgrader keeps the outputs that were handed in, and scores them."""
+
+    def forged(nb):
+        for cell in nb["cells"]:
+            if cell["cell_type"] == "code":
+                result = {"output_type": "execute_result", "data": {"text/plain": "3"}, "metadata": {}, "execution_count": 1}
+                cell["outputs"] = [result]
+
+    ordinary.configure(bridge_line)
+    ordinary.hand_in("ada", {"one": forged, "two": forged})
+    done = nbgrader(ordinary.folder, "autograde", "ps1", "--no-execute")
+    assert done.returncode == 0, done.stderr
+    marks = {row[2]: (row[4], row[7]) for row in ordinary.tables()["grades"]}
+    assert [marks[name] for name in ("test_square", "test_half", "test_add")] == [(None, 1)] * 3
+
+
+def test_exercises_are_judged_under_nbgrader_too(surfaces):
+    """A right cylinder: 4 points, the card under the cell, and the same notebook as from `directrix grade`."""
+    right = "def cylinder(u, w, r, h):\n    u, w = np.broadcast_arrays(u, w)\n    a = 2 * np.pi * u\n"
+    right += "    return np.stack([r * np.cos(a), r * np.sin(a), h * w], axis=-1)"
+    surfaces.hand_in("ada", {"known-forms": {"cylinder": right}})
+    done = nbgrader(surfaces.folder, "autograde", "A1")
+    assert done.returncode == 0, done.stderr
+    tables, files = surfaces.tables(), surfaces.autograded()
+    marks = {row[2]: row[4] for row in tables["grades"]}
+    assert marks["check_cylinder"] == 4.0
+    assert marks["check_sphere"] == 0.0
+    graded = fleet.grade(surfaces.course(), "A1", force=True)
+    assert graded.student("ada").score == 4.0
+    assert (surfaces.tables(), surfaces.autograded()) == (tables, files)
