@@ -20,7 +20,7 @@ from autograder.comparison.sets import SAME, Measured, on
 MOMENTS = 0.02  # relative difference of second moments that is still taken for equal
 CANDIDATES = 3
 ROUNDS = 12
-STALLED = 0.4  # Gauss-Newton that gains less than this a round is on its way to no match
+STALLED = 0.6  # Gauss-Newton that leaves more than this share of its residual is on its way to no match
 ELSEWHERE = 0.05  # guesses whose mean distance, relative to the spread, is larger are no match
 
 
@@ -108,7 +108,7 @@ def _refined(motion: Motion, yours: Measured, right: Measured, size: float) -> M
         there = improved(right.at, there, motion.inverse(x))
         back = improved(yours.at, back, motion(z))
         worst = max(float(there.distances.max()), float(back.distances.max()))
-        if worst <= SAME * size / 10 or (round_number > 1 and worst > STALLED * last):
+        if worst <= SAME * size / 10 or (round_number > 1 and worst > max(STALLED * last, 1e-5 * size)):
             break
         last = worst
     return motion if worst <= 10 * SAME * size else None

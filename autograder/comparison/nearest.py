@@ -28,6 +28,7 @@ APART = 2.5  # seeds of one point are at least so many cells apart
 NEWTON_ROUNDS = 14
 PATTERN_ROUNDS = 34
 SHRINK = 0.62
+LINE, ZOOMS = 17, 4  # places tried on a line, and how often the best is zoomed in on
 STEP = 1e-7
 HARD = (2, 10, 20, 40)  # points that one pattern search after another takes up; the worst go first
 
@@ -74,13 +75,17 @@ def nearest(at: Evaluator, start: Cloud, targets: Array, enough: float) -> Neare
         hard, left = left[:batch], left[batch:]
         if len(hard) == 0:
             break
+        ends = _along(at, seeds[hard], found.parameters[hard], targets[hard])
+        turned_back = _best(_newton(at, ends, np.repeat(targets[hard][:, None], ends.shape[1], axis=1), enough))
+        _take(turned_back, hard, parameters, points, distances)
+        hard = hard[distances[hard] > enough]
+        if len(hard) == 0:
+            continue
         tries = np.concatenate([seeds[hard], parameters[hard][:, None]], axis=1)
-        found = _pattern(at, tries, targets[hard], start.cell)
-        polished = _best(_newton(at, found.parameters[:, None], targets[hard][:, None], enough))
-        closer = polished.distances < distances[hard]
-        parameters[hard[closer]] = polished.parameters[closer]
-        points[hard[closer]] = polished.points[closer]
-        distances[hard[closer]] = polished.distances[closer]
+        tried = _pattern(at, tries, targets[hard], start.cell)
+        _take(
+            _best(_newton(at, tried.parameters[:, None], targets[hard][:, None], enough)), hard, parameters, points, distances
+        )
         if (distances[hard] > enough).any():
             break  # one point that stays off decides
     return Nearest(parameters, points, distances)
@@ -157,13 +162,41 @@ def _bounded_step(jacobian: Array, residual: Array, p: Array, damping: Array) ->
     gradient = np.einsum("kic,kc->ki", jacobian, residual)
     normal = np.einsum("kic,kjc->kij", jacobian, jacobian)
     held = ((p <= 0) & (gradient < 0)) | ((p >= 1) & (gradient > 0))
-    trace = np.einsum("kii->k", normal) + 1e-300
+    trace = np.einsum("kii->k", normal) + 1e-200
     identity = np.eye(n)
     keep = (~held[:, :, None]) & (~held[:, None, :])
     system = np.where(keep, normal, 0.0) + (damping * trace)[:, None, None] * identity
     system += np.where(held, trace[:, None], 0.0)[:, :, None] * identity
     step = np.linalg.solve(system, np.where(held, 0.0, gradient)[..., None])[..., 0]
     return np.where(np.isfinite(step), step, 0.0)
+
+
+def _take(better: Nearest, rows: NDArray[np.intp], parameters: Array, points: Array, distances: Array) -> None:
+    """Put what is nearer in its place."""
+    closer = better.distances < distances[rows]
+    parameters[rows[closer]] = better.parameters[closer]
+    points[rows[closer]] = better.points[closer]
+    distances[rows[closer]] = better.distances[closer]
+
+
+def _along(at: Evaluator, seeds: Array, ends: Array, targets: Array) -> Array:
+    """The best place on each line from a seed to where Gauss-Newton ended, (K, S, n).
+
+    A step that crosses a fold lands where nothing changes any more; the target lies on the line, just before the fold. Of
+    places that are as good the one nearest to the seed is taken, so that zooming in finds the fold's edge.
+    """
+    k, s, n = seeds.shape
+    low, high = np.zeros((k, s)), np.ones((k, s))
+    for _ in range(ZOOMS):
+        t = low[..., None] + (high - low)[..., None] * np.linspace(0.0, 1.0, LINE)
+        trial = seeds[:, :, None] + t[..., None] * (ends - seeds)[:, :, None]
+        d = _length(at(trial.reshape(-1, n)).reshape(k, s, LINE, -1) - targets[:, None, None])
+        best = (d <= d.min(axis=2, keepdims=True) * (1 + 1e-9)).argmax(axis=2)
+        rows = np.indices((k, s))
+        low = t[(*rows, np.maximum(best - 1, 0))]
+        high = t[(*rows, np.minimum(best + 1, LINE - 1))]
+    middle: Array = t[(*rows, best)][..., None]
+    return seeds + middle * (ends - seeds)
 
 
 def _pattern(at: Evaluator, seeds: Array, targets: Array, cell: float) -> Nearest:

@@ -78,18 +78,22 @@ def measured(at: Evaluator, n: int, gauge: float | None = None) -> Measured:
     # Searches start where the map is not squeezed: from inside a fold no derivative shows the way out.
     live = elements > COLLAPSED * mean
     rim = values[count * (1 + 2 * n) :]
-    kept = _one_of_each_pole(rim, 2 * n)
+    kept = _distinct(rim, 2 * n)
     seeds, places = np.concatenate([parameters[live], edges[kept]]), np.concatenate([here[live], rim[kept]])
     start = cloud(seeds, places, 1 / MIDPOINTS[n])
     return Measured(at, n, start, here, elements, mean if gauge is None else gauge)
 
 
-def _one_of_each_pole(rim: Array, sides: int) -> NDArray[np.intp]:
-    """Indices of the points on the sides, of a side that is a single point only one."""
+def _distinct(rim: Array, sides: int) -> NDArray[np.intp]:
+    """Indices of the points on the sides without those that coincide with another of the same side: a pole counts once.
+
+    A seam is kept twice, since its two sides are different places to start from.
+    """
+    grain = 1e-9 * (float(np.abs(rim[np.isfinite(rim)]).max(initial=0.0)) or 1.0)
     chosen = []
     for side in np.split(np.arange(len(rim)), sides):
-        across = np.ptp(rim[side], axis=0).max()
-        chosen.append(side[:1] if across <= 1e-9 * np.abs(rim).max(initial=0.0) else side)
+        _, first = np.unique(np.round(rim[side] / grain), axis=0, return_index=True)
+        chosen.append(side[np.sort(first)])
     return np.concatenate(chosen)
 
 

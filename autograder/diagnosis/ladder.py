@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -20,13 +20,14 @@ from autograder.comparison.maps import CLOSE, Sampled, Shifted, agree, other_sta
 from autograder.comparison.motion import Motion, Moved, moved
 from autograder.comparison.moved_set import moved_set
 from autograder.comparison.probing import Exhausted, Probe
-from autograder.comparison.sets import SetFinding, compare_sets, measured
+from autograder.comparison.sets import Measured, SetFinding, compare_sets, measured
 from autograder.comparison.symmetry import Symmetry
 from autograder.comparison.target import Target
 from autograder.comparison.values import Pattern
 from autograder.exercise import Mistake
 from autograder.result import GATES, LADDER, Tier
 
+T = TypeVar("T")
 NEARER = 10  # a mistake is met "closely" only where the right answer is at least so many times farther away
 DEAR: tuple[Tier, ...] = ("same set", "covered", "part", "more", "moved")
 
@@ -114,24 +115,29 @@ def search(finding: Finding, call: Callable[..., Any] | None) -> None:
     if f is None or finding.tier != "different":
         return
     probe = Probe(finding.gated, call) if call is not None else None
-    yours = None
-    if probe is not None and probe.possible:
-        try:
-            yours = measured(probe, len(f.target.names), f.target.measured.measure)
-            finding.sets = compare_sets(yours, f.target.measured, f.target.size)
-        except Exhausted:
-            yours = None
-    if finding.sets is not None:
-        finding.tier = finding.sets.tier
-        return
-    finding.moved = moved(f)
-    if finding.moved is None and yours is not None:
-        try:
-            finding.motion = moved_set(yours, f.target.measured, f.target.size)
-        except Exhausted:
+    with np.errstate(all="ignore"):
+        yours = _measured(finding, probe) if probe is not None and probe.possible else None
+        finding.sets = _attempted(lambda: compare_sets(yours, f.target.measured, f.target.size)) if yours else None
+        if finding.sets is not None:
+            finding.tier = finding.sets.tier
             return
+        finding.moved = moved(f)
+        if finding.moved is None and yours is not None:
+            finding.motion = _attempted(lambda: moved_set(yours, f.target.measured, f.target.size))
     if finding.moved is not None or finding.motion is not None:
         finding.tier = "moved"
+
+
+def _measured(finding: Finding, probe: Probe) -> Measured | None:
+    return _attempted(lambda: measured(probe, len(finding.target.names), finding.target.measured.measure))
+
+
+def _attempted(look: Callable[[], T | None]) -> T | None:
+    """What a search finds; None where its budget is spent, or where values off the samples are no numbers."""
+    try:
+        return look()
+    except (Exhausted, np.linalg.LinAlgError):
+        return None
 
 
 def _expected_error(gated: Gated) -> Finding:

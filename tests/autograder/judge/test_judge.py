@@ -515,6 +515,28 @@ class TestCredit:
         verdict = judge(tube, call)
         assert (verdict.tier, verdict.fraction, verdict.symmetries) == ("relabelled", 0.5, ("flip_u",))
 
+    def test_a_search_over_values_that_are_no_numbers_ends_quietly(self, tube):
+        def call(u, w, r, h):
+            u = np.asarray(u)
+            return (
+                right(u, w, r, h) * (1 + 1e-3 / (u - 0.32171))[..., None]
+                + np.where(np.abs(u - 0.7) < 0.002, np.nan, 0)[..., None]
+            )
+
+        assert judge(tube, call, seed=SECRET).fraction == 0.0
+
+    def test_a_search_ends_when_its_budget_is_spent(self, tube):
+        """A function that answers the planned calls and then no more keeps its cheap finding."""
+        calls = []
+
+        def call(u, w, r, h):
+            calls.append(1)
+            if len(calls) > 3 * 3 + 3:
+                raise MemoryError
+            return right(np.asarray(u) ** 2, w, r, h)
+
+        assert judge(tube, call).tier == "different"
+
     def test_blind_data_alone_do_not_pass(self, tube):
         assert judge(tube, lambda u, w, r, h: right(u, w, 1.0, 1.0)).fraction == 0.0
 
