@@ -76,12 +76,23 @@ def unit_normal(point: Array, tangent_u: Array, tangent_w: Array) -> tuple[Array
     """
     normal = cross(tangent_u, tangent_w)
     uu, ww, area = dot(tangent_u, tangent_u), dot(tangent_w, tangent_w), dot(normal, normal)  # squares, to save roots
-    tiny = ROUNDING**2 * (uu + ww + dot(point, point))
-    regular = (area > PARALLEL**2 * uu * ww) & (uu > tiny) & (ww > tiny)
-    scale = np.divide(1.0, np.sqrt(area), out=np.zeros_like(area), where=regular)
+    if area.size and _plainly_regular(uu, ww, area, point):
+        regular = np.ones(area.shape, dtype=bool)
+        scale = 1.0 / np.sqrt(area)
+    else:
+        tiny = ROUNDING**2 * (uu + ww + dot(point, point))
+        regular = (area > PARALLEL**2 * uu * ww) & (uu > tiny) & (ww > tiny)
+        scale = np.divide(1.0, np.sqrt(area), out=np.zeros_like(area), where=regular)
     normal *= scale[..., None]
     normal += 0.0  # no -0.0
     return normal, regular
+
+
+def _plainly_regular(uu: Array, ww: Array, area: Array, point: Array) -> bool:
+    """Whether the extremes alone show every point to be regular, which spares the test of each; squares as in unit_normal."""
+    most_u, most_w = float(uu.max()), float(ww.max())
+    tiny = ROUNDING**2 * (most_u + most_w + 3 * max(float(point.max()), -float(point.min())) ** 2)
+    return bool(area.min() > PARALLEL**2 * most_u * most_w and uu.min() > tiny and ww.min() > tiny)
 
 
 def first_form(tangent_u: Array, tangent_w: Array) -> FirstForm:
@@ -133,35 +144,55 @@ def principal_directions(tangent_u: Array, tangent_w: Array, form: SecondForm) -
 
 
 COMPASS = [(float(a), float(b)) for a in (-1, 0, 1) for b in (-1, 0, 1) if a or b]
+AGREED = 1e-5  # unit vectors this close are the same limit: extrapolated ones are good to 1e-7
 Jet = Callable[[Array, Array, list[tuple[int, int]]], tuple[Array, ...]]
 
 
-def limit_normal(jet: Jet, u: float, w: float) -> Array:
-    """The limit of the unit normal at a parameter (u, w) where S_u x S_w = 0, or (0, 0, 0) if there is none.
+def limit_normals(jet: Jet, u: Array, w: Array) -> Array:
+    """The limits of the unit normal at parameters (k,), (k,) where S_u x S_w = 0, or (0, 0, 0) where there is none.
 
-    Near the point S_u x S_w = t (a N_u + b N_w) + O(t^2) in the direction (a, b) of the parameter square, with
+    Near such a point S_u x S_w = t (a N_u + b N_w) + O(t^2) in the direction (a, b) of the parameter square, with
     N_u = S_uu x S_w + S_u x S_uw and N_w = S_uw x S_w + S_u x S_ww. The limit exists when all directions that lead into the
     square give the same unit vector. Where N_u and N_w vanish too, the normal is extrapolated along each direction
     (Richardson, to about 1e-7) and the same is asked.
+
+    Returns
+    -------
+    (k, 3) array
     """
-    at = np.array(u), np.array(w)
-    su, sw, suu, suw, sww = jet(*at, [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)])
-    n_u = np.cross(suu, sw) + np.cross(su, suw)
-    n_w = np.cross(suw, sw) + np.cross(su, sww)
-    tangents, seconds = norm(su) + norm(sw), norm(suu) + norm(suw) + norm(sww)
-    found = []
-    for a, b in inward(u, w):
-        ahead = a * n_u + b * n_w
-        if norm(ahead) > 1e-9 * tangents * seconds:
-            found.append(ahead / norm(ahead))
+    su, sw, suu, suw, sww = jet(u, w, [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2)])
+    n_u, n_w = cross(suu, sw) + cross(su, suw), cross(suw, sw) + cross(su, sww)
+    small = 1e-9 * (norm(su) + norm(sw)) * (norm(suu) + norm(suw) + norm(sww))
+    ahead = np.stack([a * n_u + b * n_w for a, b in COMPASS])
+    leads = np.stack([_inside(u, a) & _inside(w, b) for a, b in COMPASS]) & (norm(ahead) > small)
+    ahead /= np.where(leads, norm(ahead), 1.0)[..., None]
+    count = leads.sum(axis=0)
+    middle = (ahead * leads[..., None]).sum(axis=0) / np.maximum(count, 1)[:, None]
+    agreed = (count > 0) & ((norm(ahead - middle) <= AGREED) | ~leads).all(axis=0)
+    result = np.where(agreed[:, None], middle / np.where(agreed, norm(middle), 1.0)[:, None], 0.0)
+    for i in np.flatnonzero(count == 0):
+        result[i] = _extrapolated_limit(jet, float(u[i]), float(w[i]))
+    return result + 0.0
+
+
+def _inside(t: Array, step: float) -> Array:
+    """Where a small step leads to a parameter that is still in [0, 1]."""
+    return np.asarray((t + step / 64 >= 0) & (t + step / 64 <= 1))
+
+
+def _extrapolated_limit(jet: Jet, u: float, w: float) -> Array:
+    found = [normal for direction in inward(u, w) if (normal := _extrapolated_normal(jet, u, w, direction)) is not None]
     if not found:
-        found = [normal for direction in inward(u, w) if (normal := _extrapolated_normal(jet, u, w, direction)) is not None]
-    return _agreed(found, 1e-5)
+        return np.zeros(3)
+    middle = np.mean(found, axis=0)
+    if max(norm(normal - middle) for normal in found) > AGREED:
+        return np.zeros(3)
+    return np.asarray(middle / norm(middle))
 
 
 def inward(u: float, w: float) -> list[tuple[float, float]]:
     """The compass directions that lead from (u, w) into the parameter square."""
-    return [(a, b) for a, b in COMPASS if 0 <= u + a / 64 <= 1 and 0 <= w + b / 64 <= 1]
+    return [(a, b) for a, b in COMPASS if _inside(np.array(u), a) and _inside(np.array(w), b)]
 
 
 def _extrapolated_normal(jet: Jet, u: float, w: float, direction: tuple[float, float]) -> Array | None:
@@ -180,15 +211,6 @@ def richardson(values: Array) -> Array:
         values = (power * values[1:] - values[:-1]) / (power - 1)
         power *= 2
     return np.asarray(values[0])
-
-
-def _agreed(vectors: list[Array], tolerance: float) -> Array:
-    if not vectors:
-        return np.zeros(3)
-    middle = np.mean(vectors, axis=0)
-    if max(norm(vector - middle) for vector in vectors) > tolerance:
-        return np.zeros(3)
-    return np.asarray(middle / norm(middle))
 
 
 def limit_curvature(jet: Jet, u: float, w: float) -> tuple[float, float]:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from directrix.transform import Transform
 
 Orders = Sequence[tuple[int, int]]
-BLOCK = 8192  # parameters worked on at a time where much is computed for each: what stays in a processor's cache
+BLOCK = 6000  # parameters worked on at a time where much is computed for each: what stays in a processor's cache
 FIRST = ((0, 0), (1, 0), (0, 1))
 SECOND = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 
@@ -118,9 +118,8 @@ class Surface(Frozen):
         point, tangent_u, tangent_w = self._evaluate(u, w, FIRST)
         normal, regular = differential.unit_normal(point, tangent_u, tangent_w)
         if not regular.all():
-            us, ws = self._where(u, w, ~regular)
             try:
-                normal[~regular] = [differential.limit_normal(self._jet_at, *at) for at in zip(us, ws, strict=True)]
+                normal[~regular] = differential.limit_normals(self._jet_at, *self._where(u, w, ~regular))
             except OrderError:  # a form without second derivatives has no limit to offer
                 normal[~regular] = 0.0
         return normal
