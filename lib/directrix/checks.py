@@ -15,6 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from directrix.errors import DegenerateError, DomainError, NumberError, OrderError, ShapeError, WeightError
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+Mask = NDArray[np.bool_]
 
 EDGE = 1e-12  # a parameter this far outside [0, 1] is rounding of the caller's; further out is an error
 LARGEST = 1e75  # of a number or coordinate: products of four of them are still floats
@@ -30,7 +32,8 @@ def array(name: str, value: Any) -> Array:
         )
     if given.size and (most := float(np.abs(given).max())) > LARGEST:
         raise NumberError(
-            f"{name} must be at most {LARGEST:g} in size; got {most:g}. Products of such numbers overflow: choose a larger unit.",
+            f"{name} must be at most {LARGEST:g} in size; got {most:g}. Products of such numbers overflow: "
+            "choose a larger unit.",
             name=name,
             got=most,
         )

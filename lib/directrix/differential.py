@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from directrix.checks import Array
+from directrix.checks import Array, Mask
 
 PARALLEL = 1e-10  # |S_u x S_w| <= 1e-10 |S_u| |S_w|: the tangents do not span a plane
 ROUNDING = 64 * np.finfo(np.float64).eps  # a tangent this small beside the other one and the point is only rounding
@@ -65,7 +65,7 @@ def cross(a: Array, b: Array) -> Array:
     return np.moveaxis(result, 0, -1)
 
 
-def unit_normal(point: Array, tangent_u: Array, tangent_w: Array) -> tuple[Array, Array]:
+def unit_normal(point: Array, tangent_u: Array, tangent_w: Array) -> tuple[Array, Mask]:
     """S_u x S_w made unit, and where it exists; (0, 0, 0) elsewhere.
 
     It does not exist where |S_u x S_w| <= 1e-10 |S_u| |S_w|, or where one tangent vanishes to rounding.
@@ -175,7 +175,7 @@ def limit_normals(jet: Jet, u: Array, w: Array) -> Array:
     return result + 0.0
 
 
-def _inside(t: Array, step: float) -> Array:
+def _inside(t: Array, step: float) -> Mask:
     """Where a small step leads to a parameter that is still in [0, 1]."""
     return np.asarray((t + step / 64 >= 0) & (t + step / 64 <= 1))
 

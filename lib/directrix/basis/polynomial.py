@@ -77,7 +77,7 @@ def hermite(t: Array, derivative: int = 0) -> Array:
     >>> hermite(np.array(0.5)).tolist()
     [0.5, 0.5, 0.125, -0.125]
     """
-    return monomials(3, t, derivative) @ HERMITE[::-1]
+    return np.asarray(monomials(3, t, derivative) @ HERMITE[::-1])
 
 
 def lagrange(nodes: Array, t: Array, derivative: int = 0) -> Array:

@@ -12,16 +12,16 @@ from itertools import pairwise
 
 import numpy as np
 
-from directrix.checks import Array
+from directrix.checks import Array, Indices
 
 
-def spline_span(knots: Array, order: int, t: Array) -> Array:
+def spline_span(knots: Array, order: int, t: Array) -> Indices:
     """The index s of the knot span that holds t: t_s <= t < t_(s+1), the last one closed. Integers of the shape of t."""
     last = np.searchsorted(knots, knots[-order], side="left") - 1
-    return np.minimum(np.searchsorted(knots, t, side="right") - 1, last)
+    return np.asarray(np.minimum(np.searchsorted(knots, t, side="right") - 1, last))
 
 
-def spline_local(knots: Array, order: int, t: Array, derivative: int = 0) -> tuple[Array, Array]:
+def spline_local(knots: Array, order: int, t: Array, derivative: int = 0) -> tuple[Indices, Array]:
     """The k = order functions that are not zero at t, or their derivatives.
 
     The triangular scheme in which no denominator can vanish (Piegl & Tiller, The NURBS Book, 2nd ed., algorithm A2.2);

@@ -72,7 +72,8 @@ class Conic(Curve):
 
     def moved(self, transform: Transform) -> Conic:
         """The conic of the moved points; an affine map keeps its kind and its weight."""
-        return Conic(*transform.points(self.control_points), self.weight)
+        p0, p1, p2 = transform.points(self.control_points)
+        return Conic(p0, p1, p2, self.weight)
 
 
 def rational_bezier(homogeneous: Array, u: Array, n: int) -> Array:

@@ -84,4 +84,4 @@ def chord_length(points: Array) -> Array:
             f"chord length needs neighbouring points to differ; points {at} and {at + 1} are equal. Remove one."
         )
     total = np.concatenate([[0.0], np.cumsum(chords)])
-    return total / total[-1]
+    return np.asarray(total / total[-1])

@@ -60,6 +60,8 @@ def join(a: Any, b: Any) -> Join:
     >>> join(Line((0, 0, 0), (1, 0, 0)), Line((1, 0, 0), (3, 0, 0))).continuity
     'G1'
     """
+    edges: tuple[str, ...]
+    end: Any
     if isinstance(a, Curve) and isinstance(b, Curve):
         edges, end = ENDS, _end_of_curve
     elif isinstance(a, Surface) and isinstance(b, Surface):
@@ -80,7 +82,7 @@ def join(a: Any, b: Any) -> Join:
     def across(which: Any, edge: str, n: int) -> Array:
         """The n-th derivative going from a through the edge into b."""
         forward = edge.endswith("1") if which is a else edge.endswith("0")
-        value = end(which, edge, n) * (1.0 if forward else -1.0) ** n
+        value: Array = end(which, edge, n) * (1.0 if forward else -1.0) ** n
         return value[::-1] if which is b and reverse else value
 
     return Join(_smoothness(a, b, edge_a, edge_b, across, end), edge_a, edge_b, reverse, gap)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from directrix.checks import Array
+from directrix.checks import Array, Indices
 from directrix.differential import dot
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ def _nearest(surface: Surface, points: Array, us: Array, ws: Array, grid: Array)
     return u, w, np.sqrt(square[rows, best])
 
 
-def _local_minima(far: Array) -> Array:
+def _local_minima(far: Array) -> Indices:
     """Flat indices (n, STARTS) of the lowest samples (n, a, b) that none of their four neighbours undercuts."""
     padded = np.pad(far, ((0, 0), (1, 1), (1, 1)), constant_values=np.inf)
     low = far <= np.minimum.reduce([padded[:, :-2, 1:-1], padded[:, 2:, 1:-1], padded[:, 1:-1, :-2], padded[:, 1:-1, 2:]])

@@ -32,7 +32,8 @@ class _ThreePoints(Surface):
     def implicit(self) -> Quadric:
         """The plane n . (x - p1) = 0 with the unit normal n, without edges."""
         normal = checks.direction("normal", np.cross(self.p2 - self.p1, self.p3 - self.p1))
-        return Quadric(0, 0, 0, 0, 0, 0, *normal, -(normal @ self.p1))
+        a, b, c = (float(part) for part in normal)
+        return Quadric(0, 0, 0, 0, 0, 0, a, b, c, -float(normal @ self.p1))
 
     def moved(self, transform: Transform) -> Surface:
         """The same form through the moved points."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from directrix import checks, differential
-from directrix.checks import Array
+from directrix.checks import Array, Mask
 from directrix.differential import Curvature, FirstForm, SecondForm
 from directrix.errors import OrderError, ShapeError
 from directrix.frozen import Frozen
@@ -225,12 +225,12 @@ class Surface(Frozen):
     def _jet_at(self, u: Array, w: Array, orders: list[tuple[int, int]]) -> tuple[Array, ...]:
         return tuple(self._evaluate(u, w, orders))
 
-    def _where(self, u: ArrayLike, w: ArrayLike, mask: Array) -> tuple[Array, Array]:
+    def _where(self, u: ArrayLike, w: ArrayLike, mask: Mask) -> tuple[Array, Array]:
         """The parameters at which a mask holds."""
         us, ws = (np.broadcast_to(checks.parameter(name, value), mask.shape) for name, value in (("u", u), ("w", w)))
         return us[mask], ws[mask]
 
-    def _curvature_with_poles(self, u: ArrayLike, w: ArrayLike, jet: list[Array], normal: Array, regular: Array) -> Curvature:
+    def _curvature_with_poles(self, u: ArrayLike, w: ArrayLike, jet: list[Array], normal: Array, regular: Mask) -> Curvature:
         result = np.full((4, *regular.shape), np.nan)
         form = differential.second_form(normal[regular], *(part[regular] for part in jet[3:]))
         result[:, regular] = differential.curvature(jet[1][regular], jet[2][regular], form)
