@@ -94,7 +94,7 @@ def solution(name, source="raise NotImplementedError"):
     return MasterCell(name, "code", source, checksum="0" * 32, solution=True)
 
 
-def tested(name, source, points=2.0):
+def a_test(name, source, points=2.0):
     return MasterCell(name, "code", source, checksum="0" * 32, locked=True, grade=True, points=points)
 
 
@@ -130,7 +130,7 @@ def shipped_reference(name):
 
 def test_an_exercise_cell_is_judged_and_never_run():
     """The guard: were the cell sent to the session, its text would raise a NameError there."""
-    instructors = master(solution("cylinder"), tested("check_cylinder", "check(cylinder)", 4.0))
+    instructors = master(solution("cylinder"), a_test("check_cylinder", "check(cylinder)", 4.0))
     built, ran, given = graded(
         instructors, cell("pass", "cylinder"), cell("forged = 1/0", "check_cylinder"), session=shipped_reference("cylinder")
     )
@@ -145,7 +145,7 @@ def test_an_exercise_cell_is_judged_and_never_run():
 
 
 def test_a_missing_function_scores_zero_and_says_so():
-    instructors = master(tested("check_cylinder", "check(cylinder)", 4.0))
+    instructors = master(a_test("check_cylinder", "check(cylinder)", 4.0))
     _, ran, given = graded(instructors, cell("", "check_cylinder"))
     assert given["check_cylinder"].points == 0.0
     assert ran.cells[0].verdict.outcome == "not run"
@@ -157,7 +157,7 @@ def test_our_own_fault_has_no_mark_and_asks_for_a_look():
     def broken():
         raise SandboxError("no bubblewrap")
 
-    instructors = master(tested("check_cylinder", "check(cylinder)"), tested("t", "assert False"))
+    instructors = master(a_test("check_cylinder", "check(cylinder)"), a_test("t", "assert False"))
     built, ran, given = graded(instructors, cell("", "check_cylinder"), cell("", "t"), session=broken)
     assert [given[name].points for name in ("check_cylinder", "t")] == [None, None]
     assert given["check_cylinder"].look
@@ -171,7 +171,7 @@ def test_a_judge_that_crashes_is_our_fault(monkeypatch):
         raise ZeroDivisionError("in the judge")
 
     monkeypatch.setattr("autograder.notebook.run.judge", broken)
-    instructors = master(tested("check_cylinder", "check(cylinder)"))
+    instructors = master(a_test("check_cylinder", "check(cylinder)"))
     _, ran, given = graded(instructors, cell("", "check_cylinder"))
     assert given["check_cylinder"].points is None
     assert "ZeroDivisionError" in ran.faults[0]
@@ -179,7 +179,7 @@ def test_a_judge_that_crashes_is_our_fault(monkeypatch):
 
 def test_an_unknown_check_is_ordinary_unless_the_notebook_is_ours():
     """An ordinary course may have a function called check; in our notebooks an unknown exercise could not be judged."""
-    instructors = master(tested("t", "check(nothing_of_ours)"))
+    instructors = master(a_test("t", "check(nothing_of_ours)"))
     helper = cell("def check(f): return f()\ndef nothing_of_ours(): return 1.5")
     _, _, given = graded(instructors, helper, cell("", "t"))
     assert given["t"].points == 1.5
@@ -189,7 +189,7 @@ def test_an_unknown_check_is_ordinary_unless_the_notebook_is_ours():
 
 def test_a_dead_process_costs_only_its_own_cell():
     """The cells before are run again in a fresh session, the killer is not, the cells after go on."""
-    instructors = master(tested("before", "assert x == 1"), tested("after", "assert x == 1; assert y == 2"))
+    instructors = master(a_test("before", "assert x == 1"), a_test("after", "assert x == 1; assert y == 2"))
     built, ran, given = graded(
         instructors, cell("x = 1"), cell("", "before"), cell("z = 3\ndie()"), cell("y = 2"), cell("", "after")
     )
@@ -200,7 +200,7 @@ def test_a_dead_process_costs_only_its_own_cell():
 
 
 def test_an_exercise_that_kills_its_process_costs_only_itself():
-    instructors = master(tested("check_cylinder", "check(cylinder)"), tested("after", "assert x == 1"))
+    instructors = master(a_test("check_cylinder", "check(cylinder)"), a_test("after", "assert x == 1"))
     _, _, given = graded(
         instructors, cell("x = 1\ndef cylinder(u, w, r, h): die()"), cell("", "check_cylinder"), cell("", "after")
     )
@@ -211,7 +211,7 @@ def test_an_exercise_that_kills_its_process_costs_only_itself():
 def test_restarts_are_bounded_and_what_is_left_has_no_mark():
     """A notebook of nothing but killers cannot keep the grader busy; what was not run is not a zero."""
     killers = [cell(f"die()  # {number}") for number in range(MAX_RESTARTS + 3)]
-    instructors = master(tested("t", "assert True"))
+    instructors = master(a_test("t", "assert True"))
     _, _, given = graded(instructors, *killers, cell("", "t"))
     assert given["t"].points is None
     assert given["t"].look
@@ -223,7 +223,7 @@ def test_a_cell_good_once_and_fatal_in_the_replay_is_left_out():
     import builtins
 
     try:
-        instructors = master(tested("t", "assert True"))
+        instructors = master(a_test("t", "assert True"))
         _, ran, given = graded(instructors, cell(source), cell("die()"), cell("", "t"))
     finally:
         del builtins.seen
@@ -232,7 +232,7 @@ def test_a_cell_good_once_and_fatal_in_the_replay_is_left_out():
 
 
 def test_no_time_left_means_no_mark():
-    instructors = master(tested("t", "assert True"))
+    instructors = master(a_test("t", "assert True"))
     _, _, given = graded(instructors, cell("", "t"), seconds=-1.0)
     assert given["t"].points is None
     assert "time" in given["t"].note
@@ -240,14 +240,14 @@ def test_no_time_left_means_no_mark():
 
 def test_a_tag_of_the_submission_does_not_skip_a_test():
     """nbclient skips a tagged cell, and nbgrader then gives it full points."""
-    instructors = master(tested("t", "assert False"))
+    instructors = master(a_test("t", "assert False"))
     built, _, given = graded(instructors, cell("", "t", tags=["skip-execution"]))
     assert given["t"].points == 0.0
     assert "tags" not in built.cells[0]["metadata"]
 
 
 def test_the_last_of_duplicates_counts_and_is_flagged():
-    instructors = master(tested("t", "assert x == 2"))
+    instructors = master(a_test("t", "assert x == 2"))
     built, _, given = graded(instructors, cell("x = 1"), cell("", "t"), cell("x = 2"), cell("", "t"))
     assert given["t"].points == 2.0
     assert given["t"].look
@@ -255,7 +255,7 @@ def test_the_last_of_duplicates_counts_and_is_flagged():
 
 
 def test_a_deleted_test_cell_has_no_mark():
-    instructors = master(tested("t", "assert True"))
+    instructors = master(a_test("t", "assert True"))
     built, _, given = graded(instructors, cell("x = 1"))
     assert given == {}
     assert built.notes[0].cell == "t"
