@@ -23,7 +23,8 @@ from scipy.spatial import KDTree
 from autograder.comparison.answers import Array
 
 Evaluator: TypeAlias = Callable[[Array], Array]  # parameters (N, n) -> points (N, 3)
-SEEDS = 4
+SEEDS = 5
+NEAR = 64  # grid points among which the seeds are chosen
 APART = 2.5  # seeds of one point are at least so many cells apart
 NEWTON_ROUNDS = 14
 PATTERN_ROUNDS = 34
@@ -108,16 +109,21 @@ def slopes(at: Evaluator, parameters: Array, values: Array, step: float = STEP) 
 
 
 def _seeds(start: Cloud, targets: Array) -> Array:
-    """Per target SEEDS parameters of near points, well apart: (K, SEEDS, n)."""
-    count = min(48, len(start.points))
+    """Per target SEEDS parameters of near points: (K, SEEDS, n).
+
+    The nearest; the nearest that is APART from it; then those of the near ones that lie farthest from all chosen: behind
+    the tip of a cone the nearest grid points all lie on the wrong side of it.
+    """
+    count = min(NEAR, len(start.points))
     _, indices = start.tree.query(targets, k=count)
     near = start.parameters[np.reshape(indices, (len(targets), count))]
+    rows = np.arange(len(targets))
     chosen = [near[:, 0]]
-    free = np.ones((len(targets), count), dtype=bool)
-    for _ in range(SEEDS - 1):
-        free &= np.abs(near - chosen[-1][:, None]).max(axis=2) > APART * start.cell
-        first = np.where(free.any(axis=1), free.argmax(axis=1), 0)
-        chosen.append(near[np.arange(len(targets)), first])
+    gap = np.full((len(targets), count), np.inf)
+    for k in range(SEEDS - 1):
+        gap = np.minimum(gap, np.abs(near - chosen[-1][:, None]).max(axis=2))
+        pick = (gap > APART * start.cell).argmax(axis=1) if k == 0 else gap.argmax(axis=1)
+        chosen.append(near[rows, pick])
     return np.stack(chosen, axis=1)
 
 

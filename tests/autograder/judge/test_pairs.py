@@ -49,6 +49,14 @@ def blend(u, w, p00, p01, p10, p11):
     return (1 - u) * (1 - w) * p00 + (1 - u) * w * p01 + u * (1 - w) * p10 + u * w * p11
 
 
+def spindle(u, w):
+    return torus(u, w, 0.7, 2.3)
+
+
+def double_cone(u, w):
+    return stacked((3 * u - 1) * np.cos(TURN * w), (3 * u - 1) * np.sin(TURN * w), 2 * u)
+
+
 A, B, C = np.array([1.0, 2, 0]), np.array([4.0, 1, 2]), np.array([0.0, 5, 3])
 QUAD = (np.array([0.0, 0, 0]), np.array([0.0, 3, 1]), np.array([4.0, 0, 0]), np.array([5.0, 4, 2]))
 
@@ -178,6 +186,9 @@ PAIRS = [
     ("torus, tube half a turn later", torus, lambda u, w: torus((u + 0.5) % 1.0, w), "other start"),
     ("torus, both starts elsewhere, exchanged", torus, lambda u, w: torus((w + 0.2) % 1.0, (u + 0.7) % 1.0), "other start"),
     ("torus, half a tube", torus, lambda u, w: torus(u / 2, w), "part"),
+    ("spindle torus, half a tube", spindle, lambda u, w: spindle(u / 2, w), "part"),
+    ("double cone, a sector", double_cone, lambda u, w: double_cone(u, w / 6), "part"),
+    ("double cone, twice round", double_cone, lambda u, w: double_cone(u, 2 * w), "covered"),
     ("torus, R read as the outer radius", torus, lambda u, w: torus(u, w, 2.0), "different"),
     ("torus, circle carried along", torus, carried_circle, "different"),
     ("circle carried along, turned", carried_circle, torus, "different"),
