@@ -71,8 +71,9 @@ class Arc(Curve):
         if checks.length(e1) < 1e-9:
             e1 = np.array([-y * x, x * x + z * z, -y * z])
         e1 /= checks.length(e1)
-        e2: Array = np.cross(self.normal, e1)
-        return np.stack([e1, e2]) + 0.0
+        axes = np.stack([e1, np.cross(self.normal, e1)])
+        axes += 0.0  # no -0.0
+        return axes
 
     def _derivative(self, u: Array, n: int) -> Array:
         turns = (self.end - self.start) / (2 * pi)
