@@ -23,7 +23,7 @@ from autograder.sandbox.session import Session
 Level = Literal["A", "A-"]
 LEVELS: dict[str, str] = {
     "A": "bubblewrap, own namespaces for every notebook, Landlock, system call filter, resource limits",
-    "A-": "bubblewrap around all notebooks, Landlock between them, system call filter, resource limits",
+    "A-": "bubblewrap around all notebooks, Landlock between them, system call filter, resource limits; no file may be written",
     "B": "Landlock, system call filter and resource limits without namespaces",
     "C": "what macOS gives",
     "D": "no isolation",

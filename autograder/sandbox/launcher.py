@@ -99,8 +99,10 @@ def options(seen: View, level: str) -> list[str]:
         command += ["--size", "4096", "--tmpfs", place, "--remount-ro", place]
     for place in seen.covered:
         command += ["--ro-bind", "/dev/null", place]
-    command += ["--proc", "/proc", "--dir", "/tmp", "--dir", SCRATCH]
-    if level == "A-":
+    command += ["--dir", "/tmp", "--dir", SCRATCH]
+    if level == "A":
+        command += ["--proc", "/proc"]
+    else:
         command += ["--size", str(SHARED_SCRATCH), "--perms", "0700", "--tmpfs", SCRATCH]
     return [*command, "--remount-ro", "/", "--chdir", "/"]
 
@@ -108,6 +110,8 @@ def options(seen: View, level: str) -> list[str]:
 def _as_root(seen: View, binary: str, control: int, errors: IO[bytes], policy: Policy, level: str) -> subprocess.Popen[bytes]:
     """Lay the view out where the other uid can read it, then become that uid and start bubblewrap."""
     staged = [source for source, _ in seen.binds]
+    for source in staged:
+        _must_be_readable(source)
     places = {source: f"{STAGE}/{number}" for number, source in enumerate(staged)}
     if binary.startswith(("/usr/", "/bin/")):
         program = binary
@@ -132,6 +136,16 @@ def _as_root(seen: View, binary: str, control: int, errors: IO[bytes], policy: P
     except BrokenPipeError:
         pass  # it has died; what it printed says why
     return process
+
+
+def _must_be_readable(path: str) -> None:
+    """Mounting a tree elsewhere gets past closed folders above it, not past its own permissions."""
+    wanted = 0o005 if os.path.isdir(path) else 0o004
+    if os.stat(path).st_mode & wanted != wanted:
+        raise IsolationError(
+            f"root drops to another user to run notebooks, and that user may not read {path}. "
+            f"Let others read it (chmod -R o+rX {path}), or run as an ordinary user"
+        )
 
 
 def _free_uid() -> int:

@@ -23,7 +23,7 @@ class Policy:
     """
 
     packages: tuple[str, ...] | Literal["all"] = ("numpy", "plotly")
-    preload: tuple[str, ...] = ("plotly.graph_objects",)
+    preload: tuple[str, ...] = ("plotly.graph_objects", "directrix.plot")
 
 
 @dataclass(frozen=True)

@@ -67,11 +67,6 @@ class Process:
                 self._clock = None
         return self._cpu
 
-    def first(self, action: Action) -> tuple[bool, Any]:
-        """What the child says of itself before it is asked anything: whether it is confined, and how or why not."""
-        kind, _, body = self._frame(action)
-        return kind == wire.READY, wire.decode(body)
-
     def ask(self, kind: int, request: tuple[Any, ...], action: Action) -> Any:
         """Send one request and return the decoded answer to it.
 

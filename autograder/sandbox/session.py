@@ -31,7 +31,7 @@ class Session:
         self.limits = limits
         self.ended: Ended | None = None
         self.out_of_time: Ended | None = None  # the last interruption; its ``limit`` tells CPU time from time by the clock
-        self.facts: tuple[Any, ...] = ()
+        self.facts: list[Any] = []
         self._process = process
         self._began = time.monotonic()
         self._action_began = self._began
@@ -115,15 +115,18 @@ class Session:
         self._process.close()
 
     def start(self, files: Mapping[str, bytes], environment: Mapping[str, str], seed: int) -> None:
-        """Wait until the child has confined itself, then lay out its files. Called once, by the sandbox."""
+        """Have the child lay out its files and confine itself. Called once, by the sandbox."""
+        for name in files:
+            if not all(map(_plain_name, name.split("/"))):
+                raise SandboxError(f"a notebook's files have relative paths of plain names; got {name!r}")
         action = Action(messages.START, START_SECONDS, START_SECONDS, 2**20)
         try:
-            confined, self.facts = self._process.first(action)
-            if not confined:
-                raise SandboxError(f"a notebook's process could not be confined: {self.facts}")
-            self._ask(wire.START, (tuple(files.items()), tuple(environment.items()), seed), action)
-        except (WireError, Over) as error:
+            answer = self._ask(wire.START, (tuple(files.items()), tuple(environment.items()), seed), action)
+        except Over as error:
             raise SandboxError(f"a notebook's process could not be started: {error}") from None
+        confined, *self.facts = answer
+        if confined is not True:
+            raise SandboxError(f"a notebook's process could not be confined: {self.facts[0]}")
 
     def _action(
         self, what: str, cpu: float, limits: Limits, most: int, items: int = wire.ITEMS, *, raw: bool = False

@@ -27,8 +27,8 @@ HEADER = struct.Struct("<BI16s")
 LINK_LOST = 71  # exit code of a child that finds its socket closed by the code it runs
 
 START, CELL, CALL, FILES = 1, 2, 3, 4  # asked of the child
-READY, BROKEN, DONE = 65, 66, 67  # answered by it: set up; not set up, and why; the answer to a question
-KINDS = frozenset({START, CELL, CALL, FILES, READY, BROKEN, DONE})
+DONE = 65  # its answer
+KINDS = frozenset({START, CELL, CALL, FILES, DONE})
 
 DEPTH = 4
 ITEMS = 100_000

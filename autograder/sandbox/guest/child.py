@@ -43,14 +43,19 @@ def main(job: int, level: str, limits: dict[str, Any], scratch: str, programme: 
     os.dup2(job, 3)
     os.closerange(4, 2**20)
     link = socket.socket(fileno=3)
-    try:
-        facts = confine.confine(level, limits, scratch, programme)
-        _environment(scratch)
-    except BaseException as error:
-        link.sendall(wire.frame(wire.BROKEN, bytes(16), wire.encode(f"{type(error).__name__}: {error}")))
-        os._exit(70)
-    link.sendall(wire.frame(wire.READY, bytes(16), wire.encode((level, int(facts["landlock"]), str(facts.get("proc", ""))))))
     server = Server(link, limits, shell, f"{scratch}/work")
+    exchange, (files, environment, seed) = server.request()[1:]
+    try:
+        facts = confine.confine(level, limits, scratch, programme, lambda: _lay_out(files))
+    except BaseException as error:
+        link.sendall(wire.frame(wire.DONE, exchange, wire.encode((False, f"{type(error).__name__}: {error}"))))
+        os._exit(70)
+    _environment(scratch, environment)
+    server.seed = seed
+    _reseed(seed, 0)
+    link.sendall(
+        wire.frame(wire.DONE, exchange, wire.encode((True, level, int(facts["landlock"]), str(facts.get("proc", "")))))
+    )
     while True:
         try:
             server.answer()
@@ -68,18 +73,19 @@ class Server:
 
     def answer(self) -> None:
         """Read one request and answer it."""
-        kind, length, exchange = wire.header(self._receive(wire.HEADER.size), MAX_REQUEST)
-        request = wire.decode(self._receive(length), depth=RESULT_DEPTH, items=MAX_REQUEST, raw=True)
-        if kind == wire.START:
-            self.start(*request)
-            answer: Any = None
-        elif kind == wire.CELL:
-            answer = self.cell(*request)
+        kind, exchange, request = self.request()
+        if kind == wire.CELL:
+            answer: Any = self.cell(*request)
         elif kind == wire.CALL:
             answer = self.call(*request)
         else:
             answer = tuple(self.files())
         self.link.sendall(wire.frame(wire.DONE, exchange, wire.encode(answer, depth=RESULT_DEPTH)))
+
+    def request(self) -> tuple[int, bytes, tuple[Any, ...]]:
+        """Read one request: its kind, its exchange and what it asks."""
+        kind, length, exchange = wire.header(self._receive(wire.HEADER.size), MAX_REQUEST)
+        return kind, exchange, wire.decode(self._receive(length), depth=RESULT_DEPTH, items=MAX_REQUEST, raw=True)
 
     def _receive(self, count: int) -> bytes:
         data = bytearray()
@@ -89,16 +95,6 @@ class Server:
                 os._exit(0)  # the trusted side has closed its end
             data += part
         return bytes(data)
-
-    def start(self, files: tuple[tuple[str, bytes], ...], environment: tuple[tuple[str, str], ...], seed: int) -> None:
-        """Lay out the assignment's files."""
-        os.environ.update(environment)
-        self.seed = seed
-        _reseed(seed, 0)
-        for name, content in files:
-            os.makedirs(os.path.dirname(name) or ".", exist_ok=True)
-            with open(name, "wb") as file:
-                file.write(content)
 
     def cell(self, source: str, cpu: float, wall: float, output: int, outputs: int) -> tuple[Any, ...]:
         """Run a cell: (status, its number, outputs, updates of earlier displays)."""
@@ -168,12 +164,21 @@ def _timed(cpu: float, wall: float) -> Iterator[None]:
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 
-def _environment(scratch: str) -> None:
+def _lay_out(files: tuple[tuple[str, bytes], ...]) -> None:
+    """Write the notebook's files into the current folder."""
+    for name, content in files:
+        os.makedirs(os.path.dirname(name) or ".", exist_ok=True)
+        with open(name, "wb") as file:
+            file.write(content)
+
+
+def _environment(scratch: str, more: tuple[tuple[str, str], ...]) -> None:
     os.environ.clear()
     os.environ.update(ENVIRONMENT)
     os.environ.update(
         HOME=f"{scratch}/home", TMPDIR=f"{scratch}/tmp", IPYTHONDIR=f"{scratch}/home", MPLCONFIGDIR=f"{scratch}/home"
     )
+    os.environ.update(more)
     sys.path.insert(0, "")
     sys.argv[:] = ["notebook"]
 

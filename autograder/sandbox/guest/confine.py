@@ -1,8 +1,9 @@
 """The last walls, put up by a child around itself before it reads a line of anybody's code.
 
 Level A: the child is pid 1 of its own user, pid, mount and ipc namespaces, has its own tmpfs and /proc, no capabilities,
-Landlock, resource limits and the system call filter. Level A-: the same without namespaces of its own (the zygote's are
-shared), one fresh folder that Landlock alone makes its own. Whatever fails raises: there is no weaker way on.
+Landlock, resource limits and the system call filter. Level A-: the same in the zygote's namespaces, which all notebooks
+share; so there is no /proc, and after its files are laid out a notebook may write none (a shared tmpfs could be filled by
+one, and read by the next). Whatever fails raises: there is no weaker way on.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import os
 import resource
+from collections.abc import Callable
 
 from autograder.sandbox import system
 
@@ -19,11 +21,17 @@ READABLE = ("/python", "/packages", "/guest", "/usr", "/lib", "/lib64", "/etc", 
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full")
 PROC = tuple(f"/proc/{name}" for name in ("cpuinfo", "meminfo", "self/stat", "self/statm", "self/status"))
 NAMESPACES = system.CLONE_NEWUSER | system.CLONE_NEWPID | system.CLONE_NEWNS | system.CLONE_NEWIPC
+WITHOUT_PROC = 256 * 2**20  # what the interpreter has already, where it cannot be read
 PROCESS_ID_MAX = 400  # the least a kernel takes is about 300; RLIMIT_NPROC is the tighter one
 
 
-def confine(level: str, limits: dict[str, int | float], scratch: str, programme: bytes) -> dict[str, int | str]:
-    """Put up all walls; afterwards the process is in its own working folder. Returns what was found on the way."""
+def confine(
+    level: str, limits: dict[str, int | float], scratch: str, programme: bytes, lay_out: Callable[[], None]
+) -> dict[str, int | str]:
+    """Put up all walls; afterwards the process is in its own working folder. Returns what was found on the way.
+
+    ``lay_out`` writes the notebook's files into the current folder, before that may become unwritable.
+    """
     facts: dict[str, int | str] = {"level": level}
     os.setsid()  # kill(0) reaches a whole process group, also across pid namespaces: be a group of one
     if level == "A":
@@ -36,14 +44,17 @@ def confine(level: str, limits: dict[str, int | float], scratch: str, programme:
         system.mount(temporary, "/tmp", None, system.MS_BIND)
     _capture(scratch, int(limits["file"]))
     os.chdir(work)
+    lay_out()
     with contextlib.suppress(OSError):
         _write("/proc/self/oom_score_adj", "1000")  # if memory runs short, the grader is not what the kernel ends
     _limit(limits)
     if level == "A":
         system.drop_capabilities()
     system.no_new_privileges()
-    readable = [*READABLE, *(PROC if level == "A" else ())]
-    facts["landlock"] = system.landlock(readable, DEVICES, [scratch, *(["/tmp"] if level == "A" else [])])
+    if level == "A":
+        facts["landlock"] = system.landlock([*READABLE, *PROC], DEVICES, [scratch, "/tmp"])
+    else:
+        facts["landlock"] = system.landlock([*READABLE, scratch], DEVICES, [])
     if level == "A-" and int(facts["landlock"]) < 6:
         raise OSError("without namespaces for each notebook, Landlock ABI 6 is needed to keep signals apart (Linux 6.12)")
     system.load_filter(programme)
@@ -84,11 +95,10 @@ def _capture(scratch: str, size: int) -> None:
 
 def _limit(limits: dict[str, int | float]) -> None:
     """Resource limits, set inside the user namespace: RLIMIT_NPROC counts per namespace and does not bind the host's root."""
+    already = WITHOUT_PROC
     with contextlib.suppress(OSError), open("/proc/self/statm", encoding="ascii") as file:
         already = int(file.read().split()[0]) * resource.getpagesize()
-        _set(resource.RLIMIT_AS, already + int(limits["memory"]))
-    if resource.getrlimit(resource.RLIMIT_AS)[0] == resource.RLIM_INFINITY:
-        _set(resource.RLIMIT_AS, int(limits["memory"]))
+    _set(resource.RLIMIT_AS, already + int(limits["memory"]))
     _set(resource.RLIMIT_CPU, int(limits["notebook_cpu"]) + 10)  # the grader ends it earlier; this holds if the grader has died
     _set(resource.RLIMIT_NPROC, int(limits["threads"]))
     _set(resource.RLIMIT_FSIZE, int(limits["file"]))

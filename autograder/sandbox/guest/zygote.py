@@ -12,6 +12,7 @@ import importlib
 import json
 import os
 import select
+import shutil
 import socket
 import sys
 import warnings
@@ -51,7 +52,7 @@ class Zygote:
         self.tid_address = system.thread_id_address()
         self.shell = Shell.for_notebooks()
         _warm_up(preload)
-        if len(os.listdir("/proc/self/task")) > 1:
+        if os.path.isdir("/proc/self/task") and len(os.listdir("/proc/self/task")) > 1:
             raise RuntimeError("a thread runs in the zygote; clone would leave its locks held for ever")
         gc.collect()
         gc.freeze()  # objects from before the clone are not touched by the child's collector, so their pages stay shared
@@ -106,26 +107,7 @@ class Zygote:
         with reporter, contextlib.suppress(OSError):
             reporter.send(json.dumps(end).encode())
         if scratch != confine.SCRATCH:
-            remove(scratch)
-
-
-def remove(folder: str) -> None:
-    """Delete a folder that somebody hostile has filled: however deep it is, nothing here recurses or follows a link."""
-    while True:
-        with os.scandir(folder) as entries:
-            found = list(entries)
-        if not found:
-            break
-        for entry in found:
-            path = f"{folder}/{entry.name}"
-            if not entry.is_dir(follow_symlinks=False):
-                os.unlink(path)
-                continue
-            os.chmod(path, 0o700)
-            for inner in os.listdir(path):  # what is inside moves up, so that depth never grows
-                os.rename(f"{path}/{inner}", f"{folder}/{os.urandom(8).hex()}")
-            os.rmdir(path)
-    os.rmdir(folder)
+            shutil.rmtree(scratch, ignore_errors=True)
 
 
 def _warm_up(preload: list[str]) -> None:

@@ -49,6 +49,12 @@ def run_as_user(command: list[str], folder: Path, **options: object) -> subproce
 
 
 @pytest.fixture(scope="session")
+def as_ordinary_user():
+    """:func:`run_as_user`."""
+    return run_as_user
+
+
+@pytest.fixture(scope="session")
 def sandbox():
     """A sandbox with numpy alone, which starts fastest."""
     with Sandbox(Policy(packages=(), preload=())) as box:

@@ -251,6 +251,18 @@ def test_preparing_mounts_as_root_leaves_the_machine_as_it_was():
     assert not {name for name in os.listdir("/tmp") if name.isdigit() or name == "bwrap"}
 
 
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root drops to another user")
+def test_packages_that_the_other_user_may_not_read_are_named(tmp_path):
+    """Installed under a umask of 077, say."""
+    closed = tmp_path / "package"
+    closed.mkdir(mode=0o700)
+    with pytest.raises(IsolationError, match=r"chmod -R o\+rX .*package"):
+        launching._must_be_readable(str(closed))
+    closed.chmod(0o755)
+    tmp_path.chmod(0o700)  # a closed folder above is no hindrance
+    launching._must_be_readable(str(closed))
+
+
 def test_limits_of_zero_files_still_open(sandbox):
     with sandbox.open(limits=Limits(files=0)) as session:
         session.run_cell("open('x', 'w').write('x')")

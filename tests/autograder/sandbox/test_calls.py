@@ -21,9 +21,20 @@ def failed(session, name="f", arguments=()):
 
 @pytest.mark.parametrize(
     ("expression", "expected"),
-    [("None", None), ("True", True), ("np.bool_(True)", True), ("3", 3), ("np.int64(3)", 3), ("2.5", 2.5), ("np.float32(2.5)", 2.5),
-     ("'cone'", "cone"), ("np.str_('cone')", "cone"), ("(1, 'a', (2.0,))", (1, "a", (2.0,))), ("['a', 1]", ("a", 1))],
-)  # fmt: skip
+    [
+        ("None", None),
+        ("True", True),
+        ("np.bool_(True)", True),
+        ("3", 3),
+        ("np.int64(3)", 3),
+        ("2.5", 2.5),
+        ("np.float32(2.5)", 2.5),
+        ("'cone'", "cone"),
+        ("np.str_('cone')", "cone"),
+        ("(1, 'a', (2.0,))", (1, "a", (2.0,))),
+        ("['a', 1]", ("a", 1)),
+    ],
+)
 def test_plain_answers(session, expression, expected):
     define(session, f"import numpy as np\ndef f(): return {expression}")
     answer = session.call("f", [])
@@ -32,9 +43,15 @@ def test_plain_answers(session, expression, expected):
 
 @pytest.mark.parametrize(
     "expression",
-    ["np.arange(6.0).reshape(2, 3)", "[[0, 1.0, 2], [3, 4, 5]]", "[np.arange(3), np.arange(3.0, 6)]", "np.matrix([[0, 1.0, 2], [3, 4, 5]])",
-     "np.arange(6, dtype='f2').reshape(2, 3)", "np.ma.array(np.arange(6.0).reshape(2, 3))"],
-)  # fmt: skip
+    [
+        "np.arange(6.0).reshape(2, 3)",
+        "[[0, 1.0, 2], [3, 4, 5]]",
+        "[np.arange(3), np.arange(3.0, 6)]",
+        "np.matrix([[0, 1.0, 2], [3, 4, 5]])",
+        "np.arange(6, dtype='f2').reshape(2, 3)",
+        "np.ma.array(np.arange(6.0).reshape(2, 3))",
+    ],
+)
 def test_arrays_and_lists_of_numbers_are_arrays(session, expression):
     define(session, f"import numpy as np\ndef f(): return {expression}")
     answer = session.call("f", [])
@@ -45,7 +62,7 @@ def test_arrays_and_lists_of_numbers_are_arrays(session, expression):
 def test_arguments_arrive_in_order_arrays_read_only_and_curves_callable(session):
     define(
         session,
-        "def f(u, curve, name, pair):\n    u.flags.writeable\n    return u.flags.writeable, curve(u), name, pair[1], type(curve).__name__",
+        "def f(u, curve, name, pair):\n    return u.flags.writeable, curve(u), name, pair[1], type(curve).__name__",
     )
     u = np.array([0.0, 0.5])
     writable, points, name, second, kind = session.call("f", [u, CURVE, "x", (1, 2)])
@@ -116,11 +133,23 @@ def test_a_missing_function(session, source, said):
 
 @pytest.mark.parametrize(
     ("expression", "said"),
-    [("{}", "a dict"), ("object()", "an object"), ("print", "a builtin_function"), ("np.array([None, {}])", "dtype object"), ("[[1], [1, 2]]", None),
-     ("2**70", "64 bits"), ("b'x'", "a bytes"), ("np.array(['a'])", "dtype <U1"), ("[[[[[{}]]]]]", "nested too deeply"),
-     ("np.ma.array([1.0, 2.0], mask=[True, False])", "masked"), ("np.zeros((1,) * 9)", "9 dimensions"), ("(i for i in range(3))", "a generator"),
-     ("np.datetime64('2020-01-01')", "datetime64"), ("np.zeros(2**22)", "bytes; at most")],
-)  # fmt: skip
+    [
+        ("{}", "a dict"),
+        ("object()", "an object"),
+        ("print", "a builtin_function"),
+        ("np.array([None, {}])", "dtype object"),
+        ("[[1], [1, 2]]", None),
+        ("2**70", "64 bits"),
+        ("b'x'", "a bytes"),
+        ("np.array(['a'])", "dtype <U1"),
+        ("[[[[[{}]]]]]", "nested too deeply"),
+        ("np.ma.array([1.0, 2.0], mask=[True, False])", "masked"),
+        ("np.zeros((1,) * 9)", "9 dimensions"),
+        ("(i for i in range(3))", "a generator"),
+        ("np.datetime64('2020-01-01')", "datetime64"),
+        ("np.zeros(2**22)", "bytes; at most"),
+    ],
+)
 def test_an_answer_that_cannot_be_taken(session, expression, said):
     define(session, f"import numpy as np\ndef f(): return {expression}")
     if said is None:  # ragged lists: a tuple of what there is

@@ -65,7 +65,7 @@ def simplified(outputs, lines=True):
         output["metadata"] = {key: value for key, value in output.get("metadata", {}).items() if key.startswith("image/")}
         masked = re.sub(r"0x[0-9a-f]+", "0x", repr(sorted(output.items())))
         masked = re.sub(r"(/tmp/ipykernel_\d+/)?\d+\.py|<ipython-input-[^>]*>|/\S*/IPython/", "CELL", masked)
-        text.append(re.sub(r"\d+(\.\d+)? ([µμn]?s|ms)\b", "TIME", masked))
+        text.append(re.sub(r"\d+(\.\d+)?(e\+\d+)? ([µμn]?s|ms)\b", "TIME", masked))
     return text
 
 
@@ -153,7 +153,8 @@ def test_files_come_back_and_links_do_not(sandbox, tmp_path):
     (tmp_path / "given.txt").write_text("given")
     (tmp_path / "link").symlink_to("/etc/passwd")
     source = "import os\nopen('made.txt', 'w').write('made')\nos.makedirs('a/b'); open('a/b/c', 'w').write('c')\n"
-    source += "os.symlink('/etc/passwd', 'l'); os.symlink('made.txt', 'm'); open('bad\\nname', 'w'); open('tab\\\\', 'w'); os.remove('given.txt')"
+    source += "os.symlink('/etc/passwd', 'l'); os.symlink('made.txt', 'm'); os.remove('given.txt')\n"
+    source += "open('bad\\nname', 'w'); open('tab\\\\', 'w')"
     with sandbox.open(tmp_path) as session:
         assert session.files() == {"given.txt": b"given"}
         assert session.run_cell(source).status == "ok"

@@ -21,7 +21,7 @@ def frame(kind, body, exchange=None):
         while f is not None and 'exchange' not in f.f_locals or f.f_code.co_name == 'frame': f = f.f_back
     return struct.pack('<BI16s', kind, len(body), f.f_locals['exchange'] if exchange is None else exchange) + body
 """
-LIMITS = Limits(cell_cpu=1, call_cpu=1, patience=1, answer=2**20)
+LIMITS = Limits(cell_cpu=1, call_cpu=0.5, patience=0.5, answer=2**20)
 
 
 def taken_over(sandbox, source):
@@ -87,8 +87,8 @@ def test_a_true_answer_after_all_this_is_taken(sandbox):
     "source",
     [
         "def f(x):\n    data = bytes(2**20)\n    while True: link.sendall(data)",
-        "def f(x):\n    head = struct.pack('<BI16s', wire.DONE, 10**6, bytes(16))\n    link.sendall(head)\n    while True: link.sendall(bytes(9))",
-        "def f(x):\n    import time\n    for byte in frame(wire.DONE, bytes(10**6)): link.sendall(bytes([byte])); time.sleep(0.01)",
+        "def f(x):\n    link.sendall(struct.pack('<BI16s', wire.DONE, 10**6, bytes(16)))\n    while 1: link.sendall(bytes(9))",
+        "def f(x):\n    import time\n    for i in range(10**6): link.sendall(b'A'); time.sleep(0.01)",
     ],
     ids=["flood", "small pieces", "drip"],
 )

@@ -100,8 +100,8 @@ import os, sys
 found = []
 for root in ('/packages', '/guest', '/python', '/usr', '/lib', '/scratch', '/tmp', '/etc'):
     for folder, _, names in os.walk(root):
-        found += [os.path.join(folder, n) for n in names if n in ('known.py', 'catalogue.py', 'exercises.py', 'judge.py', 'gradebook.py')
-                  and ('directrix' in folder or 'autograder' in folder)]
+        ours = ('known.py', 'catalogue.py', 'exercises.py', 'judge.py', 'gradebook.py')
+        found += [os.path.join(folder, n) for n in names if n in ours and ('directrix' in folder or 'autograder' in folder)]
         found += [os.path.join(folder, n) for n in names if n.endswith('.pth') and os.path.getsize(os.path.join(folder, n))]
 found
 """
@@ -132,7 +132,8 @@ def test_check_says_that_the_grader_is_judging(session):
 
 def test_pictures_are_drawn_by_the_real_plot_package():
     with Sandbox() as box, box.open() as session:
-        source = "import numpy as np\nfrom directrix import plot\ndef f(u, w): return np.stack([u + 0 * w, w + 0 * u, 0 * u * w], axis=-1)\nplot.view(f)"
+        source = "import numpy as np\nfrom directrix import plot\n"
+        source += "def f(u, w): return np.stack([u + 0 * w, w + 0 * u, 0 * u * w], axis=-1)\nplot.view(f)"
         result = session.run_cell(source)
         assert result.status == "ok", result.outputs
         assert "application/vnd.plotly.v1+json" in result.outputs[-1]["data"]

@@ -65,8 +65,19 @@ def test_every_number_gets_the_answer_of_its_table(machine):
 )
 def test_dangerous_calls_are_refused_by_number(name):
     """Numbers written out here, apart from the tables."""
-    calls = {"execve": (59, 221), "execveat": (322, 281), "ptrace": (101, 117), "memfd_create": (319, 279), "unshare": (272, 97),
-             "mount": (165, 40), "bpf": (321, 280), "socket": (41, 198), "connect": (42, 203), "shmget": (29, 194), "mknodat": (259, 33)}  # fmt: skip
+    calls = {
+        "execve": (59, 221),
+        "execveat": (322, 281),
+        "ptrace": (101, 117),
+        "memfd_create": (319, 279),
+        "unshare": (272, 97),
+        "mount": (165, 40),
+        "bpf": (321, 280),
+        "socket": (41, 198),
+        "connect": (42, 203),
+        "shmget": (29, 194),
+        "mknodat": (259, 33),
+    }
     assert decide("x86_64", calls[name][0]) == ERRNO["EPERM"]
     assert decide("aarch64", calls[name][1]) == ERRNO["EPERM"]
 
