@@ -247,8 +247,8 @@ def _table(cases: Sequence[Case]) -> str:
     head = "".join(_cell(name, "th") for name in columns)
     plain = '<tr style="background-color: transparent">'  # JupyterLab would stripe the rows
     rows = [f"{plain}{head}</tr>"]
-    for case in cases:
-        cells = {"data set": _data_of(case), "result": _result_of(case), **_worst_of(case)}
+    for name, case in _named(cases):
+        cells = {"data set": name, "result": _result_of(case), **_worst_of(case)}
         rows.append(plain + "".join(_cell(cells.get(name, "")) for name in columns) + "</tr>")
     return (
         '<div style="overflow-x: auto; margin: 8px 0 0 0"><table style="border-collapse: collapse; font-size: 13px; '
@@ -267,6 +267,16 @@ def _all_alike(cases: Sequence[Case]) -> str:
     shown += [f"{hidden} hidden"] if hidden else []
     many = f"on all {len(cases)}: " if len(cases) > 1 else "on "
     return f"{results.pop()} {many}{', '.join(shown)}"
+
+
+def _named(cases: Sequence[Case]) -> list[tuple[str, Case]]:
+    """Each data set by its name; hidden ones of one result together, since nothing more is told of them."""
+    rows = [(_data_of(case), case) for case in cases if not case.hidden]
+    hidden = [case for case in cases if case.hidden]
+    for result in dict.fromkeys(map(_result_of, hidden)):
+        alike = [case for case in hidden if _result_of(case) == result]
+        rows.append((f"{len(alike)} hidden" if len(alike) > 1 else _data_of(alike[0]), alike[0]))
+    return rows
 
 
 def _columns(cases: Sequence[Case]) -> list[str]:
@@ -316,14 +326,14 @@ def _worst_of(case: Case) -> dict[str, str]:
 
 
 def _rows_as_text(cases: Sequence[Case]) -> Iterable[tuple[str, str, str]]:
-    for case in cases:
+    for name, case in _named(cases):
         sign, said = _result_of(case).split(" ", 1)
         told = _worst_of(case)
         more = [f"off by {told['off by']}"] if "off by" in told else []
         more += [f"at {told['at']}"] if "at" in told else []
         more += [f"yours {told['yours']}"] if "yours" in told else []
         more += [f"reference {told['reference']}"] if "reference" in told else []
-        yield sign, _clean(_data_of(case)), _clean("; ".join([said, *more]))
+        yield sign, _clean(name), _clean("; ".join([said, *more]))
 
 
 def _numbers(nested: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
