@@ -70,7 +70,7 @@ class Gradebook:
         try:
             with self.engine.begin() as connection:
                 yield connection
-        except sa.exc.OperationalError as error:
+        except sa.exc.DBAPIError as error:
             raise CourseError(f"the gradebook cannot be used: {error.orig}; is it nbgrader's, and is the disk full?") from error
 
     def assignment(self, name: str) -> AssignmentRow:

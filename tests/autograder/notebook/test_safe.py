@@ -134,8 +134,8 @@ def test_too_much_is_cut_or_dropped():
 
 
 KEYS = [
-    "cell_type", "source", "metadata", "outputs", "data", "text/html", "text/plain", "nbgrader", "grade_id", "id", "attachments",
-    "output_type", "text", "name", "layout", "application/vnd.plotly.v1+json",
+    "cell_type", "source", "metadata", "outputs", "data", "text/html", "text/plain", "nbgrader", "grade_id", "id",
+    "attachments", "output_type", "text", "name", "layout", "application/vnd.plotly.v1+json",
 ]  # fmt: skip
 KINDS = st.sampled_from(["code", "markdown", "display_data", "execute_result", "error", "stream"])
 JSON = st.recursive(

@@ -1,0 +1,137 @@
+"""Writing the gradebook: batches, what is never touched, and what nbgrader's own API reads afterwards."""
+
+import datetime
+import threading
+
+import pytest
+
+from autograder.errors import CourseError
+from autograder.gradebook import Gradebook, NotebookMarks, Record
+from autograder.notebook.marks import Mark
+
+MARKS = {
+    "one": NotebookMarks(
+        {"test_square": Mark(2.0), "test_half": Mark(0.0, look=True), "code_answer": Mark(None, look=True), "why": Mark(0.0)},
+        frozenset({"why"}),
+    ),
+    "two": NotebookMarks({"test_add": Mark(1.0)}),
+}
+
+
+@pytest.fixture
+def book(ordinary):
+    with Gradebook(f"sqlite:///{ordinary.folder / 'gradebook.db'}") as opened:
+        yield opened
+
+
+def test_the_instructors_copy_is_read_whole(book):
+    row = book.assignment("ps1")
+    assert list(row.notebooks) == ["one", "two"]
+    cells = row.notebooks["one"].master.cells
+    assert cells["test_square"].points == 2.0
+    assert "secret_number" in cells["test_square"].source
+    flags = {name: (cell.grade, cell.solution, cell.task, cell.locked) for name, cell in cells.items()}
+    assert flags == {
+        "helper": (False, False, False, True), "square": (False, True, False, False), "test_square": (True, False, False, True),
+        "half": (False, True, False, False), "test_half": (True, False, False, True), "code_answer": (True, True, False, False),
+        "why": (True, True, False, False), "essay": (False, False, True, True),
+    }  # fmt: skip
+    assert row.notebooks["one"].master.kernelspec["name"] == "python3"
+
+
+def test_nbgraders_api_reads_what_we_wrote(book, ordinary):
+    from nbgrader.api import Gradebook as Nbgraders
+
+    row = book.assignment("ps1")
+    standings = book.write(row, [Record(f"s{number}", None, MARKS) for number in range(120)])
+    assert standings["s7"].score == 3.0
+    with Nbgraders(f"sqlite:///{ordinary.folder / 'gradebook.db'}") as theirs:
+        submission = theirs.find_submission("ps1", "s7")
+        assert (submission.score, submission.max_score, submission.needs_manual_grade) == (3.0, 16.5, True)
+        assert theirs.find_comment("why", "one", "ps1", "s7").comment == "No response."
+        assert theirs.find_comment("square", "one", "ps1", "s7").comment is None
+        assert theirs.find_grade("test_half", "one", "ps1", "s7").needs_manual_grade
+        assert not theirs.find_grade("test_square", "one", "ps1", "s7").needs_manual_grade
+        assert len(theirs.assignment_submissions("ps1")) == 120
+
+
+def test_writing_again_adds_no_row_and_touches_no_manual_work(book, ordinary):
+    row = book.assignment("ps1")
+    book.write(row, [Record("ada", datetime.datetime(2027, 1, 1), MARKS)])
+    rows = {
+        table: ordinary.sql(f"select count(*) from {table}") for table in ("grade", "comment", "submitted_notebook", "student")
+    }
+    ordinary.sql("update comment set manual_comment = 'well done'")
+    ordinary.sql("update grade set manual_score = 1, extra_credit = 0.5, needs_manual_grade = 0")
+    ordinary.sql("update submitted_notebook set flagged = 1")
+    ordinary.sql("update student set first_name = 'Ada'")
+    book.write(row, [Record("ada", None, MARKS)])
+    assert rows == {table: ordinary.sql(f"select count(*) from {table}") for table in rows}
+    assert ordinary.sql("select distinct manual_comment from comment") == [("well done",)]
+    assert ordinary.sql("select distinct manual_score, extra_credit from grade") == [(1.0, 0.5)]
+    assert ordinary.sql("select distinct flagged from submitted_notebook") == [(1,)]
+    assert ordinary.sql("select timestamp from submitted_assignment") == [("2027-01-01 00:00:00.000000",)]
+    looks = ordinary.sql("select needs_manual_grade, b.type from grade join base_cell b on cell_id = b.id")
+    assert set(looks) == {(1, "GradeCell"), (0, "TaskCell")}
+    assert book.students()["ada"] == "Ada"
+
+
+def test_a_missing_notebook_is_zero_and_a_broken_one_has_no_marks(book, ordinary):
+    row = book.assignment("ps1")
+    book.write(row, [Record("ada", None, MARKS)])
+    book.write(row, [Record("ada", None, {"one": NotebookMarks(broken=True), "two": NotebookMarks(missing=True)})])
+    marks = {name: row for name, *row in ordinary.sql(
+        "select b.name, auto_score, needs_manual_grade from grade join base_cell b on cell_id = b.id")}  # fmt: skip
+    assert marks == {
+        "test_square": [None, 1], "test_half": [None, 1], "code_answer": [None, 1], "why": [None, 1], "essay": [None, 1],
+        "test_add": [0.0, 0],
+    }  # fmt: skip
+
+
+def test_a_penalty_is_capped_to_the_score_and_only_for_the_late(book, ordinary):
+    ordinary.sql("update assignment set duedate = '2027-01-01 00:00:00.000000'")
+    row = book.assignment("ps1")
+    seen = []
+
+    def policy(student, score, late):
+        seen.append((student, score, late))
+        return {2.0: 99.0, 1.0: -5.0}[score]
+
+    late, early = datetime.datetime(2027, 1, 1, 1), datetime.datetime(2026, 12, 1)
+    standings = book.write(row, [Record("ada", late, MARKS), Record("bob", early, MARKS)], penalty=policy)
+    assert seen == [("ada", 2.0, 3600.0), ("ada", 1.0, 3600.0)]
+    assert (standings["ada"].penalty, standings["bob"].penalty) == (2.0, 0.0)
+    assert book.penalties(row) == {("ada", "one"): 2.0, ("ada", "two"): 0.0, ("bob", "one"): 0.0, ("bob", "two"): 0.0}
+
+
+def test_two_writers_wait_for_each_other(book, ordinary):
+    """SQLite's default is to fail with "database is locked" when two transactions want to write."""
+    row = book.assignment("ps1")
+    failures = []
+
+    def write(prefix):
+        try:
+            with Gradebook(f"sqlite:///{ordinary.folder / 'gradebook.db'}") as mine:
+                for number in range(10):
+                    mine.write(row, [Record(f"{prefix}{number}", None, MARKS)])
+        except Exception as error:
+            failures.append(error)
+
+    threads = [threading.Thread(target=write, args=(prefix,)) for prefix in "abc"]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert failures == []
+    assert ordinary.sql("select count(*) from submitted_assignment") == [(30,)]
+
+
+def test_what_is_no_gradebook_is_said_plainly(tmp_path):
+    with pytest.raises(CourseError, match="there is no gradebook"):
+        Gradebook(f"sqlite:///{tmp_path / 'none.db'}")
+    (tmp_path / "junk.db").write_bytes(b"not a database, but a text that is long enough to be looked at")
+    with Gradebook(f"sqlite:///{tmp_path / 'junk.db'}") as junk, pytest.raises(CourseError, match="cannot be used"):
+        junk.assignment("A1")
+    (tmp_path / "empty.db").touch()
+    with Gradebook(f"sqlite:///{tmp_path / 'empty.db'}") as empty, pytest.raises(CourseError, match="cannot be used"):
+        empty.assignment("A1")

@@ -1,0 +1,77 @@
+"""The class table: numbers for programs, a table for people, and nothing that steers a terminal."""
+
+import io
+import json
+
+from rich.console import Console
+
+from autograder import report
+from autograder.fleet import CellReport, GradeReport, StudentReport
+
+
+def cell(name, points, available=4.0, **more):
+    return CellReport("nb", f"check_{name}", "exercise", points, available, exercise=name, **more)
+
+
+def student(id, *cells, **more):
+    scored = sum(cell.points or 0.0 for cell in cells)
+    return StudentReport(id, **{"status": "graded", "cells": cells, "score": scored, "available": 8.0, **more})
+
+
+GRADED = GradeReport(
+    "geo",
+    "A1",
+    "A",
+    (
+        student("ada", cell("cylinder", 4.0), cell("cone", 2.0, mistake="slant_as_height")),
+        student("bob", cell("cylinder", 0.0, mistake="no_2pi"), cell("cone", 2.0, mistake="slant_as_height"), penalty=1.0),
+        student("kim", cell("cylinder", 4.0, look=True), cell("cone", None)),
+        student("zig", cell("cylinder", None), cell("cone", None), status="broken", broken=("nb.ipynb: not JSON\x1b[2J",)),
+        student("eve\x1b[31m", status="failed", faults=("the sandbox broke [bold]x[/bold]",)),
+    ),
+    seconds=2.0,
+    available=8.0,
+    titles={"cylinder": "The cylinder", "cone": "The cone"},
+)
+
+
+def shown():
+    out = io.StringIO()
+    Console(file=out, width=160, color_system=None).print(report.table(GRADED))
+    return out.getvalue()
+
+
+def test_parts_count_over_submissions_that_could_be_read():
+    cylinder, cone = report.parts(GRADED)
+    assert (cylinder.title, cylinder.full, cylinder.some, cylinder.none, cylinder.waiting) == ("The cylinder", 2, 0, 1, 0)
+    assert cylinder.mean == 8 / 12
+    assert (cone.full, cone.some, cone.none, cone.waiting) == (0, 2, 0, 1)
+    assert cone.mistakes == (("slant_as_height", 2),)
+
+
+def test_the_summary_is_json():
+    data = json.loads(json.dumps(report.summary(GRADED), allow_nan=False))
+    assert data["looks"] == {"kim": 2, "zig": 2}
+    assert data["mean"] == (6 + 1 + 4) / 3
+    assert [part["name"] for part in data["parts"]] == ["check_cylinder", "check_cone"]
+    assert len(data["broken"]) == len(data["faults"]) == 1
+
+
+def test_the_table_names_everybody_and_what_went_wrong():
+    text = shown()
+    for said in ("ada", "6 / 8", "1 / 8", "late: -1", "4?", "could not be read", "The cone", "slant_as_height (2)", "not JSON"):
+        assert said in text
+    assert "3 graded in 2.0 s, 1.5 a second; sandbox level A" in text
+
+
+def test_names_and_messages_cannot_steer_the_terminal():
+    text = shown()
+    assert "\x1b" not in text
+    assert "[bold]x[/bold]" in text
+
+
+def test_an_empty_class_has_a_table_too():
+    out = io.StringIO()
+    Console(file=out, width=80).print(report.table(GradeReport("c", "A1", "A")))
+    assert "0 submissions" in out.getvalue()
+    assert report.summary(GradeReport("c", "A1", "A"))["mean"] is None
