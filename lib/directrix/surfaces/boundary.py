@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,8 +14,8 @@ from directrix.checks import Array
 from directrix.curves.curve import Curve
 from directrix.curves.function import as_curve
 from directrix.errors import DegenerateError
-from directrix.surfaces.surface import Surface
-from directrix.surfaces.tensor import window
+from directrix.surfaces.surface import Orders, Surface
+from directrix.surfaces.tensor import sum_on_grid, window
 from directrix.transform import Transform
 
 CurveLike = Curve | Callable[[Array], Any]
@@ -123,6 +123,11 @@ class Ruled(Surface):
 
     def _derivative(self, u: Array, w: Array, nu: int, nw: int) -> Array:
         return linear(w[..., None], self.c0._derivative(u, nu), self.c1._derivative(u, nu), nw)
+
+    def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        falling, rising = ({nw: linear(w, *ends, nw)[:, None] for _, nw in orders} for ends in ((1.0, 0.0), (0.0, 1.0)))
+        edges = {nu: [self.c0._derivative(u, nu), self.c1._derivative(u, nu)] for nu, _ in orders}
+        return [sum_on_grid(edges[nu], [falling[nw], rising[nw]], u.size, w.size) for nu, nw in orders]
 
     def breaks(self) -> tuple[Array, Array]:
         """Where one of the curves is less smooth."""

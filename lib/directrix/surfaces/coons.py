@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -12,7 +14,8 @@ from directrix.curves.curve import Curve
 from directrix.curves.function import as_curve
 from directrix.errors import CornerError
 from directrix.surfaces.boundary import CurveLike
-from directrix.surfaces.surface import Surface
+from directrix.surfaces.surface import Orders, Surface
+from directrix.surfaces.tensor import sum_on_grid
 from directrix.transform import Transform
 
 MEET = 1e-9  # corners meet when they are this near, as a fraction of the size of the four curves
@@ -89,6 +92,18 @@ class Coons(Surface):
         along_u = along_u + g1 * (self.c1._derivative(u, nu) - f0 * p[0, 1] - f1 * p[1, 1])
         along_w = f0 * self.d0._derivative(w, nw) + f1 * self.d1._derivative(w, nw)
         return along_u + along_w
+
+    def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        return [self._on_grid(u, w, nu, nw) for nu, nw in orders]
+
+    def _on_grid(self, u: Array, w: Array, nu: int, nw: int) -> Array:
+        """The same formula as ``_derivative``, as a sum of four products of a function of u and a function of w."""
+        f0, f1 = self._blend(u, nu)
+        g0, g1 = self._blend(w, nw)
+        p = self.corners
+        a0 = self.c0._derivative(u, nu) - f0 * p[0, 0] - f1 * p[1, 0]
+        a1 = self.c1._derivative(u, nu) - f0 * p[0, 1] - f1 * p[1, 1]
+        return sum_on_grid([a0, a1, f0, f1], [g0, g1, self.d0._derivative(w, nw), self.d1._derivative(w, nw)], u.size, w.size)
 
     def breaks(self) -> tuple[Array, Array]:
         """Where one of the curves is less smooth."""

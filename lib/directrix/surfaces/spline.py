@@ -25,6 +25,8 @@ from directrix.surfaces.surface import Orders, Surface
 from directrix.surfaces.tensor import on_grid, planes, window
 from directrix.transform import Transform
 
+FEW = 8  # points of a grid for which local support beats the matrix products
+
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline, NdBSpline
 
@@ -89,7 +91,7 @@ class SplinePatch(Surface):
         return dict(zip(orders, on_grid(self._planes, rows, columns, orders), strict=True))
 
     def _scattered(self, u: Array, w: Array, orders: Orders) -> dict[tuple[int, int], Array]:
-        """Derivatives of the blended coefficients at points: (d, ...)."""
+        """Derivatives of the blended coefficients at points: (..., d)."""
         shape = np.broadcast_shapes(u.shape, w.shape)
         t = np.empty((*shape, 2))
         t[..., 0], t[..., 1] = self.knot_vector_u.stretch(u), self.knot_vector_w.stretch(w)
@@ -101,7 +103,7 @@ class SplinePatch(Surface):
                 scale = speed(self.knot_vector_u) ** nu * speed(self.knot_vector_w) ** nw
                 value = self._compiled(t, nu=(nu, nw))
                 value = value * scale if scale != 1 else value
-            found[nu, nw] = np.moveaxis(value, -1, 0)
+            found[nu, nw] = value
         return found
 
     def _part(self, corners: tuple[float, float, float, float]) -> tuple[Array, KnotVector, KnotVector]:
@@ -160,9 +162,11 @@ class BSplinePatch(SplinePatch):
 
     def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
         found = self._scattered(u, w, orders)
-        return [np.moveaxis(found[order], 0, -1) for order in orders]
+        return [found[order] for order in orders]
 
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        if u.size * w.size <= FEW:
+            return self._jet(u[:, None], w, orders)
         found = self._grid(u, w, orders)
         return [np.moveaxis(found[order], 0, -1) for order in orders]
 
@@ -235,9 +239,15 @@ class NurbsPatch(SplinePatch):
         return lift(self.control_net, self.weights)
 
     def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        return cartesian(self._scattered(u, w, lower(orders)), orders)
+        if tuple(orders) == ((0, 0),):
+            value = self._scattered(u, w, orders)[0, 0].T
+            return [(value[:3] / value[3]).T]
+        parts = self._scattered(u, w, lower(orders))
+        return cartesian({order: np.moveaxis(value, -1, 0) for order, value in parts.items()}, orders)
 
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        if u.size * w.size <= FEW:
+            return self._jet(u[:, None], w, orders)
         return cartesian(self._grid(u, w, lower(orders)), orders)
 
     def with_net(

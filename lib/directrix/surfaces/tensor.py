@@ -8,6 +8,7 @@ planes with the coordinates moved last.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -41,6 +42,22 @@ def on_grid(coefficients: Array, rows: dict[int, Array], columns: dict[int, Arra
     return [half[nu] @ turned[nw] for nu, nw in orders]
 
 
+def sum_on_grid(along_u: Sequence[Array], along_w: Sequence[Array], p: int, q: int) -> Array:
+    """Σ f(u) g(w) on a grid as one product of thin matrices for each coordinate.
+
+    Parameters
+    ----------
+    along_u, along_w : as many arrays that broadcast to (p, 3), and to (q, 3)
+
+    Returns
+    -------
+    (p, q, 3)
+    """
+    f = np.stack([np.broadcast_to(part, (p, 3)).T for part in along_u], axis=-1)
+    g = np.stack([np.broadcast_to(part, (q, 3)).T for part in along_w], axis=1)
+    return np.moveaxis(f @ g, 0, -1)
+
+
 def at_points(net: Array, rows: Array, columns: Array) -> Array:
     """The same sum point by point: rows (..., m) and columns (..., n) that broadcast, net (m, n, d); result (..., d)."""
     m, n, d = net.shape
@@ -63,6 +80,10 @@ class TensorPatch(Surface):
         """The functions g_j, or their derivatives, at w: shape w.shape + (n,)."""
         raise NotImplementedError
 
+    @cached_property
+    def _planes(self) -> Array:
+        return planes(self._net())
+
     @property
     def degrees(self) -> tuple[int, int]:
         """Degrees in u and in w: one less than the numbers of coefficients. The orders are one more."""
@@ -80,7 +101,7 @@ class TensorPatch(Surface):
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
         rows = {nu: self._functions_u(u, nu) for nu in {nu for nu, _ in orders}}
         columns = {nw: self._functions_w(w, nw) for nw in {nw for _, nw in orders}}
-        return [np.moveaxis(value, 0, -1) for value in on_grid(planes(self._net()), rows, columns, orders)]
+        return [np.moveaxis(value, 0, -1) for value in on_grid(self._planes, rows, columns, orders)]
 
 
 def window(u0: float, u1: float, w0: float, w1: float) -> tuple[float, float, float, float]:
