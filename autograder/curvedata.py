@@ -123,9 +123,10 @@ def _piece(coefficients: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray
 
 def _interpolant(curve: Callable[[NDArray[np.float64]], Any], start: float, end: float) -> NDArray[np.float64]:
     """Chebyshev coefficients (DEGREE + 1, dimension) of the interpolant at the Chebyshev points of the first kind."""
-    nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+    angles = np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1)
+    nodes = np.cos(angles)
     values = np.asarray(curve((start + end) / 2 + (end - start) / 2 * nodes), dtype=float)
-    cosines = np.cos(np.outer(np.arange(DEGREE + 1), np.arccos(nodes)))
+    cosines = np.cos(np.outer(np.arange(DEGREE + 1), angles))
     coefficients: NDArray[np.float64] = 2.0 / (DEGREE + 1) * cosines @ values
     coefficients[0] /= 2
     return coefficients

@@ -19,12 +19,18 @@ from autograder.messages import listing, number, say, written
 
 Parts = list[tuple[str, str]]
 
+PLAIN = 0.05  # of the size: from here on a picture shows a deviation as well as it shows a larger one
+
 
 def worst_finding(findings: Sequence[Finding]) -> Finding:
-    """The finding to show: the largest deviation, data that see before blind ones, maps before what has no numbers."""
+    """The finding to show: data that see before blind ones, maps before what has no numbers, the first that is plain.
+
+    An exercise's data sets go from the simple to the special: of two that show a deviation the earlier is easier to read.
+    """
 
     def rank(f: Finding) -> tuple[bool, bool, bool, float]:
-        deviation = f.sampled.worst if f.sampled is not None and np.isfinite(f.sampled.values).all() else 0.0
+        seen = not f.right and f.sampled is not None and np.isfinite(f.sampled.values).all()
+        deviation = min(f.sampled.worst, PLAIN) if seen and f.sampled is not None else 0.0
         return not f.right, not f.target.raises, not f.target.drawn.blind, deviation
 
     return max(findings, key=rank)
