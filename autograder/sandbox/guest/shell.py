@@ -279,6 +279,16 @@ class Shell(InteractiveShell):
         updates = tuple((kind, tuple(bundle), sizes, name) for kind, bundle, sizes, name in self.recorder.updates.values())
         return tuple(outputs), updates
 
+    def rehearse(self) -> None:
+        """Run a cell that fails, and leave no trace of it: formatting the first traceback takes long."""
+        self.recorder.silent = True
+        self.run_cell("1 / 0", store_history=False, silent=True)  # type: ignore[no-untyped-call]
+        self.recorder.silent = False
+        self.ran_into = None
+        for name in ("last_type", "last_value", "last_traceback", "last_exc"):
+            if hasattr(sys, name):
+                delattr(sys, name)
+
     @contextmanager
     def silence(self) -> Iterator[None]:
         """Nothing shown inside is recorded: what a call prints could tell the hidden inputs."""

@@ -18,9 +18,14 @@ import sys
 import warnings
 from typing import Any
 
+import numpy as np
+
 from autograder.sandbox import system
 from autograder.sandbox.guest import child, confine, seccomp
 from autograder.sandbox.guest.shell import Shell
+
+NUMPY = ("numpy.random", "numpy.linalg", "numpy.polynomial", "numpy.ma")  # numpy loads these when they are first used
+SHOWING = ("psutil",)  # plotly asks it how it was started
 
 
 def main(arguments: str) -> None:
@@ -36,9 +41,6 @@ def main(arguments: str) -> None:
     zygote.serve()
 
 
-NUMPY = ("numpy.random", "numpy.linalg", "numpy.polynomial", "numpy.ma")  # numpy loads these when they are first used
-
-
 class Zygote:
     """Clones children and tells the trusted side how each of them ended."""
 
@@ -51,7 +53,7 @@ class Zygote:
         self.programme = seccomp.programme()
         self.tid_address = system.thread_id_address()
         self.shell = Shell.for_notebooks()
-        _warm_up(preload)
+        _warm_up(self.shell, preload)
         if os.path.isdir("/proc/self/task") and len(os.listdir("/proc/self/task")) > 1:
             raise RuntimeError("a thread runs in the zygote; clone would leave its locks held for ever")
         gc.collect()
@@ -110,13 +112,20 @@ class Zygote:
             shutil.rmtree(scratch, ignore_errors=True)
 
 
-def _warm_up(preload: list[str]) -> None:
-    """Import what notebooks will import, and use it once where the work is done at first use."""
+def _warm_up(shell: Shell, preload: list[str]) -> None:
+    """Import what notebooks will import, and use it once where the work is done at first use.
+
+    Whatever fails here fails again, and is shown, in the notebook that asks for it.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        for name in (*NUMPY, *preload):
-            with contextlib.suppress(ImportError):
+        for name in (*NUMPY, *SHOWING, *preload):
+            with contextlib.suppress(Exception):
                 importlib.import_module(name)
-        figures = sys.modules.get("plotly.graph_objects")
-        if figures is not None:
-            figures.Figure(figures.Surface(z=[[0.0, 1.0], [1.0, 0.0]])).to_dict()
+        with contextlib.suppress(Exception):
+            figures, plot = sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")
+            if figures is not None:
+                figures.Figure(figures.Surface(z=[[0.0, 1.0], [1.0, 0.0]]))._repr_mimebundle_()
+            if plot is not None:
+                plot.view(lambda u, w: np.stack(np.broadcast_arrays(u, w, u * w), axis=-1))._repr_mimebundle_()
+        shell.rehearse()

@@ -134,6 +134,13 @@ def test_exit_and_help_do_no_harm(session):
     assert session.run_cell("1 + 1").outputs[0]["data"] == {"text/plain": "2"}
 
 
+def test_what_the_zygote_tried_out_left_no_trace(session):
+    source = (
+        "import sys\nhasattr(sys, 'last_value'), [name for name in globals() if name.startswith('_i') and globals()[name]], Out"
+    )
+    assert session.run_cell(source).outputs[0]["data"]["text/plain"].startswith("(False, ['_ih', '_i1'], {}")
+
+
 def test_statuses(session):
     assert session.run_cell("1").status == "ok"
     assert session.run_cell("1 / 0").status == "error"
