@@ -182,10 +182,16 @@ class _Run:
             self.row, [outcome.record for outcome in batch], penalty=self.penalty, create_students=self.course.create_students
         )
         for outcome in batch:
-            self._publish(outcome, standings[outcome.student])
+            report = self._with_standing(outcome.report, standings[outcome.student])
+            try:
+                self._publish(outcome, report)
+            except OSError as error:  # a full disk, say: what is not published is graded again in the next run
+                fault = f"the graded notebook could not be written: {error.strerror or error}"
+                report = dataclasses.replace(report, status="failed", faults=(*report.faults, fault))
+            self._settled(report)
         self.committed = time.monotonic()
 
-    def _publish(self, outcome: Outcome, standing: Standing) -> None:
+    def _publish(self, outcome: Outcome, report: StudentReport) -> None:
         place = self.course.path("autograded", outcome.student, self.row.name)
         if outcome.files:
             mode = self.course.permissions("Autograde")
@@ -194,10 +200,8 @@ class _Run:
             publish.publish(staged, place)
         elif place.exists():
             publish.remove(place)  # an earlier submission's; nbgrader removes it too when the new one fails
-        report = self._with_standing(outcome.report, standing)
         if outcome.files:
             self.journal.write(outcome.student, Entry(outcome.digest, self.version, self.level, report))
-        self._settled(report)
 
     def _with_standing(self, report: StudentReport, standing: Standing) -> StudentReport:
         return dataclasses.replace(

@@ -27,7 +27,8 @@ def test_defaults_are_nbgraders(tmp_path):
 def test_settings_are_found_where_nbgrader_finds_them(tmp_path):
     made = course(
         tmp_path,
-        "c.CourseDirectory.course_id = ' geo '\nc.CourseDirectory.submitted_directory = 'in'\nc.CourseDirectory.groupshared = True\n"
+        "c.CourseDirectory.course_id = ' geo '\nc.CourseDirectory.submitted_directory = 'in'\n"
+        "c.CourseDirectory.groupshared = True\n"
         "c.ExecutePreprocessor.timeout = 7\nc.BaseConverter.permissions = 600\nc.IgnorePattern.enabled = True\n"
         "c.IgnorePattern.pattern = 'x'\nc.Directrix.packages = 'all'\nc.Directrix.level = 'A-'\n"
         "c.LateSubmissionPlugin.penalty_method = 'zero'\nc.Autograde.exclude_overwriting = {'A1': ['mine.py']}\n",
