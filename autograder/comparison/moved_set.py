@@ -20,6 +20,7 @@ from autograder.comparison.sets import SAME, Measured, on
 MOMENTS = 0.02  # relative difference of second moments that is still taken for equal
 CANDIDATES = 3
 ROUNDS = 12
+MOST = 0.85  # the share of points that a trimmed refinement listens to
 STALLED = 0.6  # Gauss-Newton that leaves more than this share of its residual is on its way to no match
 ELSEWHERE = 0.05  # guesses whose mean distance, relative to the spread, is larger are no match
 
@@ -27,9 +28,10 @@ ELSEWHERE = 0.05  # guesses whose mean distance, relative to the spread, is larg
 def moved_set(yours: Measured, right: Measured, size: float) -> Motion | None:
     """The motion that takes the right set to the learner's, or None."""
     for motion in _guesses(yours, right)[:CANDIDATES]:
-        refined = _refined(motion, yours, right, size)
-        if refined is not None and _holds(refined, yours, right, size):
-            return refined
+        for trimmed in (False, True):
+            refined = _refined(motion, yours, right, size, trimmed=trimmed)
+            if refined is not None and _holds(refined, yours, right, size):
+                return refined
     return None
 
 
@@ -89,35 +91,52 @@ def _frames(axes: Array, equal: Array) -> Iterator[Array]:
             yield turned[:, order] * signs
 
 
-def _refined(motion: Motion, yours: Measured, right: Measured, size: float) -> Motion | None:
-    """Two-sided Gauss-Newton over the motion; None where it does not come near."""
+def _refined(motion: Motion, yours: Measured, right: Measured, size: float, *, trimmed: bool) -> Motion | None:
+    """Two-sided Gauss-Newton over the motion; None where it does not come near.
+
+    ``trimmed``: without the points that are much farther off than most. Their searches may rest on an edge where the map starts
+    so slowly that no derivative leads off it; but a flat patch has nothing except such points to tell where it ends.
+    """
     scaled = motion.scale != 1.0
     x, z = yours.probes, right.probes
-    there = nearest(right.at, right.cloud, motion.inverse(x), 1e-2 * size)
-    back = nearest(yours.at, yours.cloud, motion(z), 1e-2 * size)
+    there, back = _close_by(right, motion.inverse(x), size), _close_by(yours, motion(z), size)
     last = worst = np.inf
     for round_number in range(ROUNDS):
         pulled, met = motion.inverse(x), motion.inverse(back.points)
-        rows = [_residual(right.at, there, pulled, there.points, pulled)]
-        rows.append(_residual(yours.at, back, met, z, met, motion))
+        keep = 3.0 if trimmed else np.inf
+        rows = [_residual(right.at, there, pulled, there.points, pulled, keep)]
+        rows.append(_residual(yours.at, back, met, z, met, keep, motion))
         matrix, residual = (np.concatenate(parts) for parts in zip(*rows, strict=True))
         if not scaled:
             matrix = matrix[:, :6]
         step = np.linalg.lstsq(matrix, -residual, rcond=1e-9)[0]
         motion = _nudged(motion, step)
-        there = improved(right.at, there, motion.inverse(x))
-        back = improved(yours.at, back, motion(z))
-        worst = max(float(there.distances.max()), float(back.distances.max()))
+        there = improved(right.at, there, motion.inverse(x), 3)
+        back = improved(yours.at, back, motion(z), 3)
+        worst = max(_most(near) if trimmed else float(near.distances.max()) for near in (there, back))
         if worst <= SAME * size / 10 or (round_number > 1 and worst > max(STALLED * last, 1e-5 * size)):
             break
         last = worst
     return motion if worst <= 10 * SAME * size else None
 
 
+def _close_by(of: Measured, targets: Array, size: float) -> Nearest:
+    """Nearest places under a rough guess: the search may stop early."""
+    return improved(of.at, nearest(of.at, of.cloud, targets, 1e-2 * size), targets, 6)
+
+
+def _most(near: Nearest) -> float:
+    """The distance that all but a few of the points keep to."""
+    return float(np.quantile(near.distances, MOST))
+
+
 def _residual(
-    at: Evaluator, near: Nearest, points: Array, goal: Array, moving: Array, motion: Motion | None = None
+    at: Evaluator, near: Nearest, points: Array, goal: Array, moving: Array, keep: float, motion: Motion | None = None
 ) -> tuple[Array, Array]:
-    """Rows (3K, 7) of d(residual)/d(turn, shift, log scale) and residuals (3K,), free tangent directions projected out."""
+    """Rows (3K, 7) of d(residual)/d(turn, shift, log scale) and residuals (3K,), free tangent directions projected out.
+
+    Points farther off than ``keep`` times what most keep to are left out.
+    """
     tangents = slopes(at, near.parameters, near.points)
     if motion is not None:
         tangents = tangents @ motion.turn / motion.scale
@@ -133,7 +152,9 @@ def _residual(
     rate[:, 2, 0], rate[:, 2, 1] = moving[:, 1], -moving[:, 0]
     rate[:, :, 3:6] = np.eye(3)
     rate[:, :, 6] = moving
-    return (project @ rate).reshape(3 * k, 7), np.einsum("kij,kj->ki", project, points - goal).ravel()
+    kept = near.distances <= (keep * _most(near) if np.isfinite(keep) else np.inf)
+    residual = np.einsum("kij,kj->ki", project, points - goal)
+    return (project @ rate)[kept].reshape(-1, 7), residual[kept].ravel()
 
 
 def _nudged(motion: Motion, step: Array) -> Motion:

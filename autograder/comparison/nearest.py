@@ -30,7 +30,7 @@ NEWTON_ROUNDS = 14
 PATTERN_ROUNDS = 34
 SHRINK = 0.62
 LINE, ZOOMS = 17, 4  # places tried on a line, and how often the best is zoomed in on
-STEP = 1e-7
+STEP, SHORTEST_STEP = 1e-7, 1e-8
 HARD = (2, 10, 20, 40)  # points that one pattern search after another takes up; the worst go first
 
 
@@ -92,15 +92,18 @@ def nearest(at: Evaluator, start: Cloud, targets: Array, enough: float) -> Neare
     return Nearest(parameters, points, distances)
 
 
-def improved(at: Evaluator, known: Nearest, targets: Array, rounds: int = 2) -> Nearest:
+def improved(at: Evaluator, known: Nearest, targets: Array, rounds: int) -> Nearest:
     """The nearest places to targets that have moved a little, from those known before."""
     found = _newton(at, known.parameters[:, None], targets[:, None], 0.0, rounds=rounds)
     return _best(found)
 
 
-def slopes(at: Evaluator, parameters: Array, values: Array, step: float = STEP) -> Array:
-    """Derivatives (K, n, 3) by one-sided differences that stay inside [0, 1]."""
+def slopes(at: Evaluator, parameters: Array, values: Array) -> Array:
+    """Derivatives (K, n, 3) by one-sided differences that stay inside [0, 1]; shorter ones near the ends, where a map may be
+    as steep as a root.
+    """
     n = parameters.shape[1]
+    step = np.clip(1e-3 * np.minimum(parameters, 1 - parameters), SHORTEST_STEP, STEP)
     signs = np.where(parameters > 0.5, -1.0, 1.0) * step
     shifted = np.repeat(parameters[:, None], n, axis=1)
     shifted[:, np.arange(n), np.arange(n)] += signs
@@ -168,10 +171,13 @@ def _bounded_step(jacobian: Array, residual: Array, p: Array, damping: Array) ->
     gradient = np.einsum("kic,kc->ki", jacobian, residual)
     normal = np.einsum("kic,kjc->kij", jacobian, jacobian)
     held = ((p <= 0) & (gradient < 0)) | ((p >= 1) & (gradient > 0))
-    trace = np.einsum("kii->k", normal) + 1e-200
+    sizes = np.einsum("kii->ki", normal)
+    trace = sizes.sum(axis=1) + 1e-200
+    # Damped direction by direction: near a pole one of them may be a million times as fast as the other.
+    brakes = damping[:, None] * sizes + 1e-15 * trace[:, None]
     identity = np.eye(n)
     keep = (~held[:, :, None]) & (~held[:, None, :])
-    system = np.where(keep, normal, 0.0) + (damping * trace)[:, None, None] * identity
+    system = np.where(keep, normal, 0.0) + brakes[:, :, None] * identity
     system += np.where(held, trace[:, None], 0.0)[:, :, None] * identity
     step = np.linalg.solve(system, np.where(held, 0.0, gradient)[..., None])[..., 0]
     return np.where(np.isfinite(step), step, 0.0)

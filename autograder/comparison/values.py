@@ -1,7 +1,7 @@
 """The rungs for answers that are not maps: numbers, nets, bases, words, and tuples of these.
 
-Numbers are compared relative to the largest of the expected ones (so a basis, whose largest value is 1, absolutely), with room
-for the rounding that the size of the data brings.
+Numbers are compared relative to the largest of the expected ones, with room for the rounding that the size of the data brings;
+a basis, whose values lie between 0 and 1 whatever the degree and the knots, without that room.
 """
 
 from __future__ import annotations
@@ -43,16 +43,21 @@ class Difference:
 
 def scale(target: Target, expected: Numbers) -> float:
     """What tolerances of this answer are relative to."""
-    largest = float(np.abs(expected.values).max(initial=0.0))
-    return largest or target.data_scale
+    return _largest(expected) or target.data_scale
 
 
 def allowed(target: Target, expected: Numbers) -> float:
     """The difference that still counts as equal."""
     if expected.was != "float":
         return target.exercise.tolerance
-    largest = float(np.abs(expected.values).max(initial=0.0))
-    return target.exercise.tolerance * largest + FLOOR * target.data_scale
+    floor = 0.0 if target.exercise.kind == "basis" else FLOOR * target.data_scale
+    return target.exercise.tolerance * _largest(expected) + floor
+
+
+def _largest(expected: Numbers) -> float:
+    """The largest absolute value; a known mistake may hold infinities and NaN besides."""
+    finite = expected.values[np.isfinite(expected.values)]
+    return float(np.abs(finite).max(initial=0.0))
 
 
 def same(target: Target, yours: Answer, expected: Answer, *, near: float = 0.0) -> bool:

@@ -224,6 +224,12 @@ PAIRS = [
     ("Bezier, turned, scaled and transposed", bezier, lambda u, w: placed(bezier, ODD, (1, 2, 3), 0.5)(w, u), "moved"),
     ("Bezier, bent", bezier, traced(bezier, bent), "same set"),
     ("Bezier, bent and turned", bezier, placed(traced(bezier, bent), ODD, (1, 2, 3)), "moved"),
+    (
+        "Bezier, bent, slow at an edge, and turned",
+        bezier,
+        placed(traced(bezier, bent, lambda u, w: w**1.5), ODD, (1, 2, 3)),
+        "moved",
+    ),
     ("Bezier, bent and mirrored", bezier, placed(traced(bezier, bent), ODD @ MIRROR, (1, 2, 3)), "moved"),
     ("Bezier, a quarter of it", bezier, lambda u, w: bezier(u / 2, w / 2), "part"),
     ("Bezier, one control point off", bezier, lambda u, w: bezier(u, w, BUMPED), "different"),
