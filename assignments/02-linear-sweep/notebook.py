@@ -284,8 +284,8 @@ def plane3(u, w, p1, p2, p3):
     Returns points, shape of u and w together + (3,).
     """
     p1, p2, p3 = np.asarray(p1, float), np.asarray(p2, float), np.asarray(p3, float)
-    ### BEGIN SOLUTION
     u, w = np.asarray(u)[..., None], np.asarray(w)[..., None]
+    ### BEGIN SOLUTION
     return p1 + u * (p2 - p1) + w * (p3 - p1)
     ### END SOLUTION
 

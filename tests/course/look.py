@@ -8,12 +8,12 @@ import argparse
 import html
 import json
 import re
+import shutil
 import sys
 from pathlib import Path
 from typing import Any
 
 import nbclient
-import nbformat
 from latex2mathml.converter import convert
 from nbconvert.filters import ansi2html, markdown2html_mistune
 from plotly.offline import get_plotlyjs
@@ -30,10 +30,50 @@ code { background: #f2f2f2; padding: 0 3px; } table { border-collapse: collapse;
 """
 
 
+MOST_SCENES = 14  # a browser keeps 16 WebGL contexts alive on one page
+
+
+def words(text: str) -> int:
+    """Words of prose, a formula counting as one."""
+    return len(re.sub(r"\$+[^$]+\$+", "formula", text).split())
+
+
+def scenes(nb: Any) -> int:
+    """3-D scenes of a notebook at most: two for a comparison, one for any other picture and for the card of a check."""
+    code = "\n".join(cell.source for cell in nb.cells if cell.cell_type == "code")
+    return sum(len(re.findall(one, code)) for one in (r"plot\.(?:view|walk)\(", r"against=", r"^ *check\("))
+
+
+def guesses(nb: Any) -> dict[str, int]:
+    """Names that the reader is asked to fill in, and the cell where."""
+    found = {}
+    for number, cell in enumerate(nb.cells):
+        if cell.cell_type == "code" and (match := re.match(r"(\w+) = None\b", cell.source)):
+            found[match[1]] = number
+    return found
+
+
+def typed(nb: Any) -> dict[str, int]:
+    """Type something into every guess; returns what was asked."""
+    asked = guesses(nb)
+    for guess, number in asked.items():
+        nb.cells[number].source = re.sub(rf"^{guess} = None", f"{guess} = 'typed'", nb.cells[number].source)
+    return asked
+
+
+def folded(cell: Any) -> bool:
+    """Whether the cell's code is folded away."""
+    return cell.metadata.get("jupyter", {}).get("source_hidden", False)
+
+
 def executed(nb: Any, folder: Path, *, allow_errors: bool = False) -> Any:
     """The notebook with outputs, run from top to bottom by a real kernel."""
     client = nbclient.NotebookClient(
-        nb, timeout=120, allow_errors=allow_errors, kernel_name="python3", resources={"metadata": {"path": str(folder)}}
+        nb,
+        timeout=120,
+        allow_errors=allow_errors,
+        kernel_name="python3",
+        resources={"metadata": {"path": str(folder)}},
     )
     return client.execute()
 
@@ -96,7 +136,7 @@ def photograph(text: str, out: Path, *, height: int = 1500) -> list[Path]:
     (out / "page.html").write_text(text, "utf-8")
     shots = []
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=["--no-sandbox"])
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
         tab = browser.new_page(viewport={"width": 960, "height": height})
         tab.goto((out / "page.html").resolve().as_uri())
         tab.evaluate(DRAW)
