@@ -88,7 +88,7 @@ _NAMES = {
     "ShapeError": "errors",
     "WeightError": "errors",
 }
-_ROOMS = {"errors", "checks", "plot"}
+_ROOMS = {"errors", "checks", "export", "plot"}
 
 __all__ = [*_NAMES]
 
