@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from autograder.exercise import exercise
+from autograder.exercise import DataSet, exercise
 from autograder.judge import judge
 
 NET = np.arange(36.0).reshape(4, 3, 3) ** 1.5 - 20
@@ -117,6 +117,17 @@ def test_not_a_number_in_a_value_earns_nothing_but_its_mistake_is_named():
     assert judge(value, lambda a: np.array([np.nan, 3.0])).tier == "not finite"
     verdict = judge(value, lambda a: np.array([np.nan, 2.0]))
     assert (verdict.mistake, verdict.fraction) == ("logarithms", 0.0)
+    assert judge(value, lambda a: np.array([np.nan, 2.0 + 4e-16])).mistake == "logarithms", "rounding is no other mistake"
+
+
+def test_a_basis_is_held_to_its_tolerance_whatever_the_size_of_the_data():
+    """Its functions lie between 0 and 1 even where the knots reach to 1000."""
+    basis, net = (posed(np.array([0.25, 0.75]), kind=kind, tolerance=1e-12) for kind in ("basis", "net"))
+    for value in (basis, net):
+        value.data_sets[0] = DataSet("far", lambda rng: {"a": 1000.0})
+    assert judge(basis, lambda a: np.array([0.25, 0.75 + 5e-13])).fraction == 1.0
+    assert judge(basis, lambda a: np.array([0.25, 0.75 + 5e-12])).tier == "close"
+    assert judge(net, lambda a: np.array([0.25, 0.75 + 5e-12])).tier == "identical"
 
 
 def test_a_mistake_of_another_shape_is_named():
