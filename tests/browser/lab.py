@@ -94,6 +94,22 @@ class Lab:
         self.page.wait_for_timeout(3000)  # the software renderer draws after the canvas is there
         return plot
 
+    def drag_and_read_cameras(self, plot) -> dict[str, bool]:
+        """Turn the left scene of a comparison with the mouse; say whether it moved and whether the right one followed."""
+        read = "plot => [plot._fullLayout.scene.camera.eye, plot._fullLayout.scene2.camera.eye].map(e => [e.x, e.y, e.z])"
+        before = plot.evaluate(read)
+        box = plot.bounding_box()
+        x, y = box["x"] + box["width"] * 0.25, box["y"] + box["height"] * 0.5
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        self.page.mouse.move(x + 90, y + 25, steps=6)
+        self.page.mouse.up()
+        self.page.wait_for_timeout(2000)
+        after = plot.evaluate(read)
+        moved = max(abs(a - b) for a, b in zip(before[0], after[0], strict=True)) > 0.05
+        linked = max(abs(a - b) for a, b in zip(after[0], after[1], strict=True)) < 1e-6
+        return {"moved": moved, "linked": linked}
+
     def wait_for_text(self, grade_id: str, text: str) -> None:
         """Wait until a cell's output shows a text."""
         self._cell(self.index(grade_id)).locator(".jp-Cell-outputWrapper").get_by_text(text, exact=True).first.wait_for(

@@ -36,6 +36,7 @@ def test_a_student_types_a_mistake_sees_it_named_and_drawn_and_corrects_it(workb
         picture = lab.shot(canvas, "mistake-figure")
         assert colours(picture) > 200, "the comparison is blank"
         lab.shot(card, "mistake-card")
+        assert lab.drag_and_read_cameras(canvas) == {"moved": True, "linked": True}
 
         lab.type_into(
             "cylinder", MISTAKE.replace("np.cos(u)", "np.cos(2 * np.pi * u)").replace("np.sin(u)", "np.sin(2 * np.pi * u)")
