@@ -42,6 +42,7 @@ _NAMES = {
     "coons_twists": "surfaces.hermite",
     # implicit
     "Quadric": "quadric",
+    "quadric_patches": "surfaces.quadrics",
     # solids
     "BSplineHyperpatch": "solids.spline",
     "BezierHyperpatch": "solids.polynomial",

@@ -29,7 +29,8 @@ def every_form():
         dx.LinearSweep(arc, P[2], 1 / 3), dx.LinearSweep.between(bezier, P[0], P[1]), dx.CircularSweep(bezier, "x", 0.3),
         dx.CircularSweep.about(bezier, P[0], P[1], 0.3), dx.GenericSweep(bezier, dx.BezierCurve(P[3:7]), "minimal"),
         dx.AlgebraicPatch(NET), dx.HermitePatch(RNG.standard_normal((4, 4, 3))),
-        dx.Ferguson(*RNG.standard_normal((3, 2, 2, 3))), dx.PointPatch(NET, tu="chord"), dx.BezierPatch(NET), dx.BSplinePatch(NET, 3, 3, "uniform", "periodic"),
+        dx.Ferguson(*RNG.standard_normal((3, 2, 2, 3))), dx.PointPatch(NET, tu="chord"),
+        dx.BezierPatch(NET), dx.BSplinePatch(NET, 3, 3, "uniform", "periodic"),
         dx.NurbsPatch(NET, WEIGHTS, 3, 3), dx.Bilinear(*P[:4]), dx.Ruled(bezier, arc), dx.Coons(*ends, blend="cubic"),
         TURN @ dx.Sphere(2), dx.Sphere(2).patch(0.1, 0.2, 0.3, 0.4), dx.Sphere(2).swap(),
     ]  # fmt: skip
