@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike
 from directrix import checks
 from directrix.basis import bernstein
 from directrix.checks import Array
+from directrix.conversion.patches import spline_of
 from directrix.conversion.splines import (
     BEZIER_TO_HERMITE,
     HERMITE_TO_BEZIER,
     HERMITE_TO_POWERS,
     bezier_to_powers,
-    spline_of,
 )
 from directrix.conversion.strands import elevated
 from directrix.curves.bezier import BezierCurve

@@ -10,7 +10,8 @@ from directrix import checks
 from directrix.basis import clamped, on_knots, raised
 from directrix.checks import Array
 from directrix.conversion.forms import to_bezier, to_bspline
-from directrix.conversion.splines import curve_from, spline_of, surface_from
+from directrix.conversion.patches import spline_of, surface_from
+from directrix.conversion.splines import curve_from
 from directrix.conversion.strands import Strand, elevated
 from directrix.curves.bezier import BezierCurve
 from directrix.curves.bspline import BSplineCurve, NurbsCurve
