@@ -26,11 +26,22 @@ AUTOGRADE = (
     "nbgrader.preprocessors.AssignLatePenalties",
     "nbgrader.preprocessors.CheckCellMetadata",
 )
+GENERATE = (
+    "autograder.bridge.release.CheckExercises",
+    *(
+        f"nbgrader.preprocessors.{name}"
+        for name in (
+            "IncludeHeaderFooter", "InstantiateTests", "LockCells", "ClearSolutions", "ClearOutput", "CheckCellMetadata",
+            "ComputeChecksums", "SaveCells", "ClearHiddenTests", "ClearMarkScheme", "ComputeChecksums", "CheckCellMetadata",
+        )
+    ),
+)  # fmt: skip
 TEMPLATES = Path(__file__).with_name("templates")
 
 
 def configure(c: Any) -> None:
     """Set what an nbgrader course needs to be graded by Directrix; everything else in ``c`` stays as the course has it."""
+    c.GenerateAssignment.preprocessors = list(GENERATE)
     c.Autograde.sanitize_preprocessors = list(SANITIZE)
     c.Autograde.autograde_preprocessors = list(AUTOGRADE)
     c.GenerateFeedback.exporter_class = "autograder.bridge.pages.Feedback"

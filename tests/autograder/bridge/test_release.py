@@ -1,0 +1,70 @@
+"""An assignment whose exercise cells cannot be graded as they stand is not released."""
+
+import nbformat
+import pytest
+
+from autograder import authoring
+from autograder.errors import CourseError
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("release") / "course"
+    authoring.new_course(folder, ("A1",))
+    return folder
+
+
+@pytest.fixture
+def source(made):
+    """The source notebook with a way to change one cell; restored afterwards."""
+    path = made / "source" / "A1" / "known-forms.ipynb"
+    before = path.read_bytes()
+
+    def change(grade_id, **changes):
+        notebook = nbformat.read(path, 4)
+        (cell,) = [cell for cell in notebook.cells if cell.metadata.get("nbgrader", {}).get("grade_id") == grade_id]
+        cell.source = changes.get("source", cell.source)
+        cell.metadata.nbgrader.points = changes.get("points", cell.metadata.nbgrader.points)
+        nbformat.write(notebook, path)
+
+    yield change
+    path.write_bytes(before)
+
+
+def test_the_shipped_notebook_is_released(made):
+    """The neighbour that must pass."""
+    assert (authoring.release(made, "A1") / "known-forms.ipynb").is_file()
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"source": "x = check(torus)"}, "cell 'check_torus' must be exactly check(name)"),
+        ({"source": "check('torus')"}, "must be exactly check(name)"),
+        ({"source": "check(torus); check(torus)"}, "must be exactly check(name)"),
+        ({"source": "check(tyre)"}, "cell 'check_torus' checks 'tyre', but no exercise has that name"),
+        ({"points": 7}, "cell 'check_torus' gives 7 points, but the exercise 'torus' is worth 6"),
+    ],
+)
+def test_a_cell_that_could_not_be_graded_stops_the_release_by_name(made, source, changes, says):
+    """nbgrader's own command goes through the same preprocessor; nothing is half-released."""
+    source("check_torus", **changes)
+    with pytest.raises(CourseError, match="could not release A1") as caught:
+        authoring.release(made, "A1")
+    assert says in " ".join(str(caught.value).split())
+
+
+def test_a_comment_beside_the_call_is_no_fault(made, source):
+    """The call is read from the syntax tree, not from the letters."""
+    source("check_torus", source="check(torus)  # six points")
+    assert authoring.release(made, "A1").is_dir()
+
+
+def test_ours_comes_before_nbgraders_own_preprocessors_which_stay_as_they_are():
+    """A new release of nbgrader that adds one is noticed here."""
+    from nbgrader.converters import GenerateAssignment
+
+    from autograder.bridge import GENERATE
+
+    stock = [preprocessor.__name__ for preprocessor in GenerateAssignment.preprocessors.default()]
+    assert [name.rpartition(".")[2] for name in GENERATE] == ["CheckExercises", *stock]
