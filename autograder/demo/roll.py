@@ -104,11 +104,11 @@ def partial(assignment: Assignment) -> Iterator[Draft]:
         "single-points", "Some functions work for single numbers only.", "partial", solved(assignment, "single_points"),
         full(assignment, **{id: exercises[id].shape_credit for id in single}),
     )  # fmt: skip
-    careless = cells(assignment.slug, "careless")
-    yield Draft(
-        "careless", "Right, but refuses nothing: no ValueError where there is no answer.", "partial",
-        solved(assignment, "careless"), full(assignment, **dict.fromkeys(careless, REFUSAL_CREDIT)),
-    )  # fmt: skip
+    if careless := cells(assignment.slug, "careless"):  # some assignments have nothing to refuse
+        yield Draft(
+            "careless", "Right, but refuses nothing: no ValueError where there is no answer.", "partial",
+            solved(assignment, "careless"), full(assignment, **dict.fromkeys(careless, REFUSAL_CREDIT)),
+        )  # fmt: skip
     made = exercises[second].mistakes[0]
     unfinished = {
         first: answers(assignment)[first],

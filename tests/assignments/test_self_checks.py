@@ -191,3 +191,93 @@ def test_revolve_axis(point, axis, angle, along):
     near(height, height[:, :1], 100)
     near(reference("revolve_axis")(U, W, curve, point + along * axis / np.linalg.norm(axis), axis, angle), S, 1000)
     near(reference("revolve_axis")(U, W, curve, point, -axis, -angle), S, 100)
+
+
+def climbing(t):
+    return np.stack([4 - t, 1 + np.sin(t), 2 * t**2 - 3], axis=-1)
+
+
+@given(spots)
+def test_translational_sweep(shift):
+    """The generatrix starts in its own place and only moves; it does not matter where the path lies."""
+    S = reference("translational_sweep")(U, W, curve, climbing)
+    near(S[:, 0], curve(U[:, 0]), 20)
+    near(S - S[:1], curve(U) - curve(np.array(0.0)), 40)
+    near(reference("translational_sweep")(U, W, curve, lambda t: climbing(t) + shift), S, 40)
+
+
+@given(spots, directions)
+def test_translational_sweep_along_a_line_is_linear(a, step):
+    S = reference("translational_sweep")(U, W, curve, lambda t: a + np.multiply.outer(t, step))
+    near(S, reference("linear_sweep_points")(U, W, curve, a, a + step), 100)
+
+
+@given(st.lists(st.tuples(numbers, numbers), min_size=2, max_size=6).map(np.array))
+def test_vase(P):
+    """Ends of the profile are its first and last point; every w is the same profile, turned; two points make a frustum."""
+    S = reference("vase")(U, W, P)
+    near(S[0, 0], [P[0, 0], 0, P[0, 1]], 40)
+    near(S[-1, 0], [P[-1, 0], 0, P[-1, 1]], 40)
+    near(S[..., 0] ** 2 + S[..., 1] ** 2, S[:, :1, 0] ** 2, 400)
+    near(S[..., 2], S[:, :1, 2], 40)
+
+
+@given(lengths, lengths, lengths)
+def test_vase_of_two_points(r1, r2, h):
+    near(reference("vase")(U, W, [[r1, 0.0], [r2, h]]), reference("frustum")(W, U, r1, r2, h), 20 * max(r1, r2, h))
+
+
+@given(spots, directions, directions, spots)
+def test_bilinear(p00, a, b, p11):
+    """Corners; straight both ways; the second mixed difference is the uw term; planar corners stay in their plane."""
+    p01, p10 = p00 + a, p00 + b
+    S = reference("bilinear")(U, W, p00, p01, p10, p11)
+    near(S[[0, 0, -1, -1], [0, -1, 0, -1]], [p00, p01, p10, p11], 40)
+    near(np.diff(S, n=2, axis=0), 0.0, 200)
+    near(np.diff(S, n=2, axis=1), 0.0, 200)
+    near(np.diff(np.diff(S[::12, ::10], axis=0), axis=1)[0, 0], p00 - p01 - p10 + p11, 100)
+
+
+@given(spots, directions, directions, st.floats(1e-4, 1e4), angles)
+def test_being_planar_survives_motion_scale_and_relabelling(p00, a, b, scale, t):
+    """Also the other way round: a corner lifted out of the plane is noticed at every scale."""
+    normal = np.cross(a, b)
+    if np.linalg.norm(normal) < 0.1 * np.linalg.norm(a) * np.linalg.norm(b):
+        return
+    planar = reference("bilinear_is_planar")
+    c, s = np.cos(t), np.sin(t)
+    turn = scale * np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
+    flat = np.array([p00, p00 + a, p00 + b, p00 + 1.5 * a + 0.5 * b]) @ turn.T
+    lifted = flat + np.array([0, 0, 0, 0.1])[:, None] * (normal @ turn.T) / np.linalg.norm(normal)
+    for order in ([0, 1, 2, 3], [0, 2, 1, 3], [3, 1, 2, 0], [1, 0, 3, 2]):
+        assert planar(*flat[order])
+        assert not planar(*lifted[order])
+
+
+def test_ruled():
+    S = reference("ruled")(U, W, curve, climbing)
+    near(S[:, 0], curve(U[:, 0]), 20)
+    near(S[:, -1], climbing(U[:, 0]), 20)
+    near(np.diff(S, n=2, axis=1), 0.0, 40)
+
+
+@given(spots, spots, spots, spots)
+def test_ruled_between_two_lines_is_bilinear(p00, p01, p10, p11):
+    if not np.ptp([p00, p01, p10, p11], axis=0).any():
+        return
+    S = reference("ruled")(
+        U, W, lambda t: p00 + np.multiply.outer(t, p10 - p00), lambda t: p01 + np.multiply.outer(t, p11 - p01)
+    )
+    near(S, reference("bilinear")(U, W, p00, p01, p10, p11), 100)
+
+
+@given(lengths, lengths, lengths, angles)
+def test_ruled_circles(r0, r1, h, phase):
+    """How far it draws in; the two families of lines are mirror images; phase 0 is the frustum."""
+    scale = 20 * max(r0, r1, h)
+    S = reference("ruled_circles")(U, W, r0, r1, h, phase)
+    drawn_in = r0**2 * (1 - W) ** 2 + r1**2 * W**2 + 2 * r0 * r1 * W * (1 - W) * np.cos(phase)
+    near(S[..., 0] ** 2 + S[..., 1] ** 2, np.broadcast_to(drawn_in, S.shape[:2]), scale**2)
+    other = reference("ruled_circles")(1 - U, W, r0, r1, h, -phase)
+    near(S * [1, -1, 1], other, scale)
+    near(reference("ruled_circles")(U, W, r0, r1, h, 0.0), reference("frustum")(U, W, r0, r1, h), scale)

@@ -22,11 +22,18 @@ LISTED = {
     "revolve_coord": "y_sign_like_x_z all_negative flat_profile degrees",
     "revolve_xy_axis": "inverse_first no_inverse no_transform axis_ignored wrong_sense from_y",
     "revolve_axis": "through_origin no_translate_back translate_wrong_way axis_not_unit no_third_term axis_is_a_point",
+    "translational_sweep": "not_anchored gen_anchored average swap_uw ruled_by_mistake",
+    "vase": "no_binomials reversed rho_z_exchanged swap_uw degrees",
+    "bilinear": "p01_p10 around_the_loop no_uw_term lofts_added two_edges_averaged",
+    "bilinear_is_planar": "parallelogram absolute_tol always_planar",
+    "ruled": "ends_exchanged no_one_minus one_reversed average different_points",
+    "ruled_circles": "phase_degrees phase_ignored phase_negative phase_on_both swap_uw",
 }
 ASSIGNMENTS = {
     "A1": ["cylinder", "frustum", "sphere", "torus", "torus_class"],
     "A2": ["direction_cosines", "linear_sweep", "linear_sweep_points", "plane3", "triangle_mask", "triangle_patch"],
     "A3": ["revolve_y", "revolve_coord", "cone_from_line", "revolve_xy_axis", "revolve_axis"],
+    "A4": ["translational_sweep", "vase", "bilinear", "bilinear_is_planar", "ruled", "ruled_circles"],
 }
 
 
@@ -42,6 +49,15 @@ def spc(t):
     return np.stack([2 + t, 3 * t - 0.5, 0.7 - t**2], axis=-1)
 
 
+def wig(t):
+    return np.stack([1 + t, 2 - t**2, 0.5 + np.sin(2 * t)], axis=-1)
+
+
+def top(t):
+    return np.stack([3 * t - 1, np.cos(3 * t), 2 + t], axis=-1)
+
+
+QUAD = ((0, 0, 0), (0, 3, 1), (4, 0, 0), (5, 4, 2))
 TRIANGLE = ((1, 2, 0), (4, 1, 2), (0, 5, 3))
 ORACLES = [
     ("cylinder", (0.25, 0.4), (2, 5), (0, 2, 2)),
@@ -65,6 +81,13 @@ ORACLES = [
     ("revolve_coord", (0.5, 0.25), (spc, "x"), (2.5, -0.45, 1)),
     ("revolve_xy_axis", (0.5, 0.25), (spc, 0.523598776), (2.5330127, 0.942820323, -0.383974596)),
     ("revolve_axis", (0.5, 0.25), (spc, (1, 0, -1), (1, 2, 2)), (2.01111111, 1.93888889, -0.244444444)),
+    ("translational_sweep", (0.25, 0.5), (arc, wig), (1.91421356, 0.8125, 1.40397098)),
+    ("vase", (0.5, 0.25), (((1, 0), (3, 1), (0.5, 2), (1.5, 4)),), (0, 1.625, 1.625)),
+    ("bilinear", (0.5, 0.5), QUAD, (2.25, 1.75, 0.75)),
+    ("bilinear", (0.25, 0.75), QUAD, (1.1875, 2.4375, 0.9375)),
+    ("ruled", (0.25, 0.5), (arc, top), (0.582106781, 0.897094434, 1.40625)),
+    ("ruled_circles", (0.25, 0.5), (2, 1.5, 3, 1.30899694), (-0.72444437, 1.19411428, 1.5)),
+    ("ruled_circles", (0, 0.5), (2, 1.5, 3, 1.30899694), (1.19411428, 0.72444437, 1.5)),
 ]
 
 
@@ -89,6 +112,22 @@ def test_the_printed_numbers(name, place, arguments, expected):
 @pytest.mark.parametrize(("R", "r", "kind"), [(3, 1, "ring"), (1, 1, "horn"), (0.5, 1, "spindle"), (0, 1, "sphere")])
 def test_the_four_kinds_of_torus(R, r, kind):
     assert shipped().find("torus_class").reference(R, r) == kind
+
+
+@pytest.mark.parametrize(
+    ("corners", "planar"),
+    [
+        (QUAD, False),
+        (((0, 0, 1), (1, 2, 2), (3, 0, 1), (5, 4, 3)), True),
+        (((0, 0, 0), (0, 2, 0), (3, 0, 0), (5, 4, 0)), True),
+        (((0, 0, 0), (0, 2, 1), (3, 0, 2), (3, 2, 3)), True),
+        (((0, 0, 0), (0, 3e-05, 1e-05), (4e-05, 0, 0), (5e-05, 4e-05, 2e-05)), False),
+        (((1, 1, 1000001), (1000001, 2000001, 2000001), (3000001, 1, 1000001), (5000001, 4000001, 3000001)), True),
+        (((2, 3, 4),) * 4, True),
+    ],
+)
+def test_planar_or_not(corners, planar):
+    assert shipped().find("bilinear_is_planar").reference(*corners) is planar
 
 
 @pytest.mark.parametrize(
