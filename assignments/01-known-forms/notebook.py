@@ -84,7 +84,7 @@ plot.view(strip, square=True)
 # Keep the circle, and let the second parameter lift it: $u$ runs once round, $w$ runs up. Before any formula, say what must be
 # true of every point: $x^2 + y^2 = r^2$, and $z$ has nothing to do with $u$.
 #
-# For $r = 2$ and $h = 5$: which point is $S(0.25,\ 0.4)$? Work it out in your head.
+# For $r = 2$ and $h = 5$: which point is $S(0.75,\ 0.4)$? Work it out in your head.
 
 # %%
 point = None  # for example (1, 0, 2.5)
@@ -112,8 +112,8 @@ def cylinder(u, w, r, h):
 
 # %%
 with once_written():
-    reveal(point, cylinder(0.25, 0.4, r=2, h=5))
-    display(plot.view(lambda u, w: cylinder(u, w, r=2, h=5), square=True, mark=(0.25, 0.4)))
+    reveal(point, cylinder(0.75, 0.4, r=2, h=5))
+    display(plot.view(lambda u, w: cylinder(u, w, r=2, h=5), square=True, mark=(0.75, 0.4)))
 
 # %% [markdown]
 # **Test it yourself.** A formula that must hold needs no model answer. Change $r$ and $h$; try a negative $h$.
@@ -375,21 +375,22 @@ check(torus)
 # %%
 equal_radii = None  # "sphere", "spindle", "ring" or "horn"
 
-# %%
+# %% fold=true
 reveal(equal_radii, "horn: the hole has just closed to a point")
 
 turn = np.linspace(0, 2 * np.pi, 181)
-figure = go.Figure().update_layout(height=240, template="none", showlegend=False)
-tori = {"ring": (0, 3), "horn": (9.5, 1), "spindle": (15, 0.5), "sphere": (19, 0)}
+tori = {"ring": (0, 3), "horn": (10.5, 1), "spindle": (17, 0.5), "sphere": (22.5, 0)}
+figure = go.Figure().update_layout(height=200, template="none", showlegend=False)
+figure.update_layout(margin={"l": 5, "r": 5, "t": 5, "b": 5})
 for name, (place, R) in tori.items():
+    axis = {"color": "#888", "dash": "dash", "width": 1}
+    figure.add_scatter(x=[place] * 2, y=[-1.6, 1.6], mode="lines", line=axis)
     for side, colour in ((1, "#0072B2"), (-1, "#D55E00")):
         x = place + side * (R + np.cos(turn))
         figure.add_scatter(x=x, y=np.sin(turn), mode="lines", line={"color": colour, "width": 3})
-    axis = {"color": "#888", "dash": "dash"}
-    figure.add_scatter(x=[place] * 2, y=[-1.5, 1.5], mode="lines", line=axis)
-    figure.add_annotation(x=place, y=2, text=f"{name}: R = {R}", showarrow=False)
-figure.update_xaxes(visible=False, range=[-4.5, 20.5])
-figure.update_yaxes(visible=False, scaleanchor="x", range=[-1.7, 2.4])
+    figure.add_annotation(x=place, y=2.2, text=f"<b>{name}</b>, R = {R}", showarrow=False)
+figure.update_xaxes(visible=False, range=[-4.5, 24.5])
+figure.update_yaxes(visible=False, scaleanchor="x", range=[-1.8, 2.8])
 
 # %% [markdown]
 # **Task (torus_class).** Return the name as a string. Where there is no torus at all, for $R < 0$ or $r \le 0$, raise a

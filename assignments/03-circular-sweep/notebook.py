@@ -27,19 +27,22 @@
 # %%
 z_goes_to = None  # "+x" or "-x"
 
-# %%
+# %% fold=true
 reveal(z_goes_to, "+x, and +x goes on to -z")
 
 turn = np.linspace(0, 0.5 * np.pi, 60)
-figure = go.Figure().update_layout(height=300, width=420, template="none", showlegend=False)
-figure.update_layout(title="seen from the tip of y: it points at you")
-for tip, text in (((1.2, 0), "z"), ((0, 1.2), "x")):
-    figure.add_annotation(x=tip[0], y=tip[1], ax=0, ay=0, axref="x", ayref="y", arrowhead=2, text="")
-    figure.add_annotation(x=1.15 * tip[0], y=1.15 * tip[1], text=f"<b>{text}</b>", showarrow=False)
-figure.add_scatter(x=np.cos(turn), y=np.sin(turn), mode="lines", line={"width": 4, "color": "#D55E00"})
-figure.add_scatter(x=[0], y=[1], mode="markers", marker={"size": 12, "symbol": "triangle-left"})
+figure = go.Figure().update_layout(height=280, width=420, template="none", showlegend=False)
+figure.update_layout(margin={"l": 5, "r": 5, "t": 40, "b": 5}, title="y points at you")
+for x, y, text in ((1.25, 0, "z"), (0, 1.25, "x")):
+    figure.add_annotation(x=x, y=y, ax=0, ay=0, axref="x", ayref="y", arrowhead=2, text="")
+    figure.add_annotation(x=1.1 * x, y=1.1 * y, text=f"<b>{text}</b>", font={"size": 16}, showarrow=False)
+style = {"width": 5, "color": "#D55E00"}
+figure.add_scatter(x=np.cos(turn), y=np.sin(turn), mode="lines", line=style)
+tip = {"size": 16, "symbol": "triangle-left", "color": "#D55E00"}
+figure.add_scatter(x=[0.04], y=[1], mode="markers", marker=tip)
+figure.add_scatter(x=[0], y=[0], mode="markers+text", text=["y"], textposition="bottom left")
 figure.update_xaxes(visible=False, range=[-0.5, 1.6])
-figure.update_yaxes(visible=False, scaleanchor="x", range=[-0.2, 1.5])
+figure.update_yaxes(visible=False, scaleanchor="x", range=[-0.25, 1.5])
 
 # %% [markdown]
 # ## 2 · The two curves of today

@@ -26,7 +26,7 @@ from autograder.notebook.text import BEGIN, CODE_STUB, TEXT_STUB, Cell, Notebook
 
 Role = Literal["solution", "check", "written", "locked", "setup"]
 ROLES: tuple[Role, ...] = ("solution", "check", "written", "locked", "setup")
-OPTIONS = {*ROLES, "points"}
+OPTIONS = {*ROLES, "points", "fold"}
 SCHEMA_VERSION = 3
 
 __all__ = ["build", "build_chapter", "chapters", "dumps", "release", "setup_source", "write"]
@@ -116,7 +116,7 @@ def _built(cell: Cell, number: int, assignment: Assignment, seen: dict[str, Cell
         metadata["nbgrader"] = nbgrader
     elif region(cell) is not None:
         raise cell.error(f'\'{BEGIN}\' stands in a cell that is no task; mark the cell with solution="..." or written="..."')
-    if role == "setup":
+    if role == "setup" or cell.options.get("fold"):
         metadata["jupyter"] = {"source_hidden": True}
     name = metadata["nbgrader"]["grade_id"] if role is not None else f"cell-{number:02d}"
     return new_cell(cell.kind, source, name, metadata)
@@ -137,6 +137,8 @@ def _role(cell: Cell) -> Role | None:
     role = roles[0] if roles else None
     if role is None and "points" in cell.options:
         raise cell.error('points belong to a graded cell; write check="..." or written="..." beside them')
+    if cell.options.get("fold") and (cell.kind != "code" or role in ("solution", "check")):
+        raise cell.error("fold=true hides code that need not be read; a task, a check and prose are to be seen")
     if role in ("solution", "check", "setup") and cell.kind != "code":
         raise cell.error(f"a {role} cell holds code; take [markdown] away")
     if role == "written" and cell.kind != "markdown":

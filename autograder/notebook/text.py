@@ -2,6 +2,7 @@
 
     # %% [markdown]                          prose
     # %%                                     code that a learner may change
+    # %% fold=true                           the same, folded away: a picture whose code teaches nothing
     # %% setup=true                          imports and the helpers of every assignment (``setup_cell.txt``)
     # %% solution="cylinder"                 the task cell of an exercise
     # %% check="cylinder"                    its graded cell, exactly ``check(cylinder)``

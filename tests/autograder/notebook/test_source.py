@@ -130,6 +130,13 @@ def test_setup_cell_brings_imports_and_helpers_locked_and_folded(assignment):
     assert cell.metadata.jupyter == {"source_hidden": True}
 
 
+def test_folded_cell_hides_its_code_and_nothing_else(tmp_path):
+    """A picture whose code teaches nothing is folded away; it stays an ordinary cell."""
+    folded = made(tmp_path, TEXT.replace("# %%\n# a remark", "# %% fold=true\n# a remark"))
+    cell = next(cell for cell in build(folded).cells if cell.id == "cell-03")
+    assert cell.metadata == {"jupyter": {"source_hidden": True}}
+
+
 def test_rebuilding_gives_the_same_bytes(assignment, tmp_path):
     """Nothing random: two builds of one text are the same file."""
     first = write(assignment, tmp_path / "one").read_bytes()
@@ -206,6 +213,7 @@ BROKEN = {
     "other signature": ("def half(x, by=2.0):", "def half(x, by):", "def half", "'def half(x, by=2.0)'; got 'def half(x, by)'"),
     "no docstring": ('    """x divided."""\n', "", "def half", "needs a docstring"),
     "syntax slip": ("def half(x, by=2.0):", "def half(x, by=2.0)", "def half", "not Python: expected ':'"),
+    "folded task": (DISC, DISC + " fold=true", DISC, "fold=true hides code that need not be read"),
     "words worth nothing": (" points=3", "", WHY, "says what it is worth"),
     "words in code": ('[markdown] written="why"', 'written="why"', "# %% written", "a written answer is a [markdown] cell"),
     "check before task": (DISC, f'# %% check="disc" \ncheck(disc)\n\n{DISC}', '# %% check="disc" \n', "comes before the cell"),
