@@ -9,6 +9,8 @@ inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our ow
 
 from __future__ import annotations
 
+import ast
+import contextlib
 import functools
 import importlib
 import logging
@@ -17,7 +19,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from traitlets.config.loader import Config, ConfigFileNotFound, JSONFileConfigLoader, PyFileConfigLoader
+from traitlets.config.loader import (
+    Config,
+    ConfigFileNotFound,
+    DeferredConfigList,
+    DeferredConfigString,
+    JSONFileConfigLoader,
+    PyFileConfigLoader,
+)
 
 from autograder import catalogue
 from autograder.catalogue import Catalogue
@@ -73,7 +82,7 @@ class Course:
         """A setting under its section or one that the section inherits from."""
         for known in INHERITED.get(section, (section,)):
             if known in self.config and name in self.config[known]:
-                return self.config[known][name]
+                return _resolved(self.config[known][name])
         return default
 
     @property
@@ -271,6 +280,17 @@ def _imported(given: Any, folder: Path) -> Callable[..., Any]:
         raise CourseError(f"the late policy {given!r} cannot be imported: {error}") from error
     finally:
         sys.path.remove(str(folder))
+
+
+def _resolved(value: Any) -> Any:
+    """A setting as it is meant: one from the command line is a string whose type its trait would have decided."""
+    if isinstance(value, DeferredConfigList):
+        return [_resolved(DeferredConfigString(item)) for item in value]
+    if isinstance(value, DeferredConfigString):
+        with contextlib.suppress(ValueError, SyntaxError):
+            return ast.literal_eval(str(value))
+        return str(value)
+    return value
 
 
 def _literal(text: str) -> str:

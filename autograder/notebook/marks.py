@@ -113,6 +113,10 @@ def _short(shown: str) -> str:
 
 
 DIFFERENCES = (
+    ("forged outputs under --no-execute", "scored", "outputs of graded cells are dropped; no mark, and a manual look"),
+    ("a cell of the submission with a name that the assignment does not have", "the submission is dropped", "an ordinary cell"),
+    ("code that hangs in C, os._exit, too much memory", "the submission is dropped", "costs its own cells; the rest is graded"),
+    ("c.Execute.timeout", "seconds by the clock", "seconds of CPU time; by the clock three times that and ten"),
     ("np.float64(0.5) returned by a test cell", "full points", "0.5 points"),
     ("a negative number or NaN returned by a test cell", "full points", "0 points and a manual look"),
     ("a number above the points", "the submission is dropped", "0 points and a manual look (rounding aside)"),

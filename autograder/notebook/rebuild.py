@@ -21,7 +21,7 @@ MAX_CELLS = 5_000
 MAX_SOURCE = 1_000_000
 MISSING = "This cell (id:{cell_id}) was missing from the submission. It was added back by nbgrader.\n\n"
 _ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
-_KERNEL = re.compile(r"[A-Za-z0-9_.-]{1,100}")
+_KERNEL = re.compile(r"[\w .()+\[\]:-]{1,100}")
 
 
 @dataclass(frozen=True)
@@ -165,21 +165,33 @@ def _cell(draft: _Draft, mine: MasterCell | None, master: Master, *, keep_output
 
 def _notebook(cells: list[dict[str, Any]], submitted: Mapping[str, Any], master: Master) -> dict[str, Any]:
     kernel = dict(master.kernelspec) or _kernel_of(submitted)
+    if not _is_python(kernel):
+        asked = kernel.get("display_name") or kernel.get("name")
+        raise SubmissionError(f"the notebook wants the kernel {asked!r}, and only Python notebooks are run here")
     metadata: dict[str, Any] = {"language_info": {"name": "python"}}
     if kernel:
-        metadata["kernelspec"] = kernel
+        name = kernel.get("name") or "python3"
+        metadata["kernelspec"] = {**kernel, "name": name, "display_name": kernel.get("display_name") or name}
     return {"cells": cells, "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
 
 
 def _kernel_of(submitted: Mapping[str, Any]) -> dict[str, str]:
     metadata = submitted.get("metadata")
     kernel = metadata.get("kernelspec") if isinstance(metadata, Mapping) else None
-    name = kernel.get("name") if isinstance(kernel, Mapping) else None
-    if name is None:
+    if not isinstance(kernel, Mapping) or kernel.get("name") is None:
         return {}
-    if not isinstance(name, str) or not _KERNEL.fullmatch(name):
+    found = {key: kernel[key] for key in ("name", "display_name", "language") if kernel.get(key)}
+    if not all(isinstance(value, str) and _KERNEL.fullmatch(value) for value in found.values()):
         raise SubmissionError("the notebook names a kernel that cannot be")
-    return {"name": name, "display_name": name, "language": "python"}
+    return {"display_name": found["name"], **found}
+
+
+def _is_python(kernel: Mapping[str, Any]) -> bool:
+    """No kernel, a kernel whose language is Python whatever its name (an environment's), or one called python."""
+    language, name = kernel.get("language"), kernel.get("name")
+    if language:
+        return str(language).lower() == "python"
+    return not name or str(name).startswith("python")
 
 
 def _add_missing(built: Rebuilt, master: Master, notification: str) -> None:

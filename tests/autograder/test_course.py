@@ -43,6 +43,15 @@ def test_settings_are_found_where_nbgrader_finds_them(tmp_path):
     assert made.instructor_files("A1") == {"ours.py": b""}
 
 
+def test_settings_from_nbgraders_command_line_have_their_types(tmp_path):
+    """nbgrader autograde --Execute.timeout=2 hands over a string that its trait would have read."""
+    from traitlets.config.loader import KVArgParseConfigLoader
+
+    given = KVArgParseConfigLoader(["--Execute.timeout=2", "--CourseDirectory.course_id=geo"]).load_config()
+    made = Course(tmp_path, config=given)
+    assert (made.timeout, made.id) == (2.0, "geo")
+
+
 def test_a_plug_in_of_the_course_decides_the_penalty(tmp_path):
     (tmp_path / "mylate.py").write_text(
         "from nbgrader.plugins import BasePlugin\n"

@@ -124,3 +124,14 @@ def test_our_checksum_is_nbgraders(flags):
     master = MasterCell("name", "code", "x = 1", points=2.5 if flags.get("grade") else None, **flags)
     made = nbformat.from_dict({"cell_type": "code", "source": "x = 'ü'", "metadata": {"nbgrader": master.metadata}})
     assert checksum("code", "x = 'ü'", master) == compute_checksum(made)
+
+
+def test_every_difference_is_told_to_instructors():
+    """The page and the list in the code say the same, row by row."""
+    from pathlib import Path
+
+    from autograder.notebook.marks import DIFFERENCES
+
+    page = (Path(__file__).resolve().parents[3] / "docs" / "nbgrader.md").read_text("utf-8")
+    rows = [tuple(part.strip() for part in line.strip("|").split("|")) for line in page.splitlines() if line.startswith("| ")]
+    assert tuple(rows[1:]) == DIFFERENCES

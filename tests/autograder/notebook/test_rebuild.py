@@ -120,6 +120,24 @@ def test_missing_cells_are_put_back_where_nbgrader_is_told_to():
     assert made.cells[1]["source"].endswith(TEST.source)
 
 
+@pytest.mark.parametrize(
+    ("kernel", "runs"),
+    [
+        ({}, True), ({"name": "python3"}, True), ({"name": "geo-env", "language": "python"}, True), ({"name": "ir"}, False),
+        ({"name": "python3", "language": "R"}, False), ({"name": "ir", "display_name": "R", "language": "R"}, False),
+    ],
+)  # fmt: skip
+def test_notebooks_of_other_languages_are_refused_and_not_marked_as_bad_python(kernel, runs):
+    """Of the source notebook, and where it names none, of the submitted one."""
+    for submitted, source in ((kernel, {}), ({"name": "python3"}, kernel)):
+        nb = {"cells": [], "metadata": {"kernelspec": submitted} if submitted else {}}
+        if runs:
+            nbformat.validate(nbformat.from_dict(rebuild(nb, Master("nb", {}, source)).notebook))
+        else:
+            with pytest.raises(SubmissionError, match="only Python notebooks"):
+                rebuild(nb, Master("nb", {}, source))
+
+
 def test_a_kernel_that_cannot_be_is_refused():
     with pytest.raises(SubmissionError, match="kernel"):
         rebuild({"cells": [], "metadata": {"kernelspec": {"name": "a;b"}}}, Master("nb", {}))
