@@ -10,6 +10,7 @@ from look import MOST_SCENES, folded, guesses, scenes, typed, words
 
 from autograder.catalogue import shipped
 from autograder.notebook.source import build, release
+from autograder.sandbox import Sandbox
 
 ASSIGNMENTS = {assignment.name: assignment for assignment in shipped().assignments}
 
@@ -131,3 +132,26 @@ def test_released_notebook_runs_and_only_its_checks_complain(name, run):
             assert "execute_result" not in [output.output_type for output in cell.outputs] or not errors
         else:
             assert not errors, f"{cell.source}\n{errors}"
+
+
+@pytest.fixture(scope="module")
+def sandbox():
+    """The sandbox of grading, as it is by default."""
+    with Sandbox() as box:
+        yield box
+
+
+@pytest.mark.parametrize("released", [False, True], ids=["solved", "released"])
+@pytest.mark.parametrize("name", ASSIGNMENTS)
+def test_notebook_runs_in_the_sandbox_with_numpy_and_plotly_alone(name, released, sandbox):
+    """Where marks are given every cell runs too; a solved notebook shows its pictures there."""
+    nb = build(ASSIGNMENTS[name])
+    drawing = sum("plot.view(" in cell.source or "go.Figure(" in cell.source for cell in code(nb))
+    pictures = 0
+    with sandbox.open(files={}) as session:
+        for cell in code(release(nb) if released else nb):
+            result = session.run_cell(cell.source)
+            assert result.status == "ok", f"{cell.source}\n{result.note or result.outputs}"
+            pictures += any("application/vnd.plotly.v1+json" in output.get("data", {}) for output in result.outputs)
+    assert drawing >= 4
+    assert 1 <= pictures < drawing if released else pictures == drawing
