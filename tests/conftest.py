@@ -1,9 +1,14 @@
-"""What all tests share: Chromium, and the rule that nothing is skipped where the project's own gate runs."""
+"""What all tests share: Chromium, one Hypothesis profile, and that nothing is skipped where the project's gate runs."""
 
 import os
 import shutil
 
 import pytest
+from hypothesis import settings
+
+# The same examples every time, so that a failure is a failure for everyone; no deadline, since machines are shared.
+settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=40, database=None)
+settings.load_profile("fixed")
 
 CHROMIUM = next((path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None)
 

@@ -1,4 +1,7 @@
-"""``directrix demo``, ``new``, ``release`` and ``lab``: making courses and opening them."""
+"""``directrix demo``, ``new``, ``release`` and ``lab``: making courses and opening them.
+
+Verbs import what they need when they run, here and beside: ``directrix --help`` should not wait for notebooks and tables.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,6 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from autograder import authoring
 from autograder.cli.options import AsJson, CourseOption, console_for
 from autograder.errors import CourseError
 
@@ -28,6 +30,8 @@ def new(
 
     Example: directrix new surfaces-2027
     """
+    from autograder import authoring
+
     made = authoring.new_course(course, tuple(assignment or ()))
     console = Console()
     console.print(f"{course}: {', '.join(f'{a.name} {a.slug} ({a.points:g} points)' for a in made)}", highlight=False)
@@ -42,6 +46,8 @@ def release(
 
     Example: directrix release A1
     """
+    from autograder import authoring
+
     made = authoring.release(course, assignment)
     Console().print(f"{made}: hand it out, or put it on the exchange with nbgrader release_assignment", highlight=False)
 
@@ -55,6 +61,8 @@ def lab(
 
     Example: directrix lab
     """
+    from autograder import authoring
+
     if not (folder / "nbgrader_config.py").is_file():
         written = authoring.workbook(folder)
         kept = "your own work is kept" if not written else f"{len(written)} notebooks added, what was there is kept"
@@ -78,8 +86,8 @@ def demo(
 
     Example: directrix demo --dir demo
     """
+    from autograder import authoring, feedback, fleet, report
     from autograder import demo as cohorts
-    from autograder import feedback, fleet, report  # the slow half of the package, needed from here on
 
     console = console_for(as_json)
     if again and directory.exists():

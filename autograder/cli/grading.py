@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from autograder.cli.course import grade_with_progress
-from autograder.cli.options import AsJson, CourseOption, console_for
+from autograder.cli.options import AsJson, CourseOption, console_for, opened
 
 
 def check(
@@ -47,11 +47,11 @@ def grade(
 
     Example: directrix grade A1 --student ada
     """
-    from autograder import fleet, report
+    from autograder import report
 
     console = console_for(as_json)
     graded = grade_with_progress(
-        console, fleet.Course(course), assignment, students=student or None, force=force, workers=workers or None,
+        console, opened(course), assignment, students=student or None, force=force, workers=workers or None,
         level=level or None,
     )  # fmt: skip
     console.print(report.table(graded))
@@ -74,9 +74,8 @@ def feedback(
     Example: directrix feedback A1
     """
     from autograder import feedback as pages
-    from autograder import fleet
 
-    written = pages.write(fleet.Course(course), assignment, students=student or None)
+    written = pages.write(opened(course), assignment, students=student or None)
     if as_json:
         print(json.dumps([str(path) for path in written]))
     else:

@@ -3,15 +3,33 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
+
+from autograder.errors import CourseError
+
+if TYPE_CHECKING:
+    from autograder.course import Course
 
 CourseOption = Annotated[Path, typer.Option("--course", help="The course folder.", show_default="this folder")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON document, and what is meant for people on stderr.")]
 
 WIDTH = 150
+SIGNS = ("nbgrader_config.py", "nbgrader_config.json", "gradebook.db", "submitted", "source")
+
+
+def opened(folder: Path) -> Course:
+    """The course in a folder. Raises CourseError where nothing in the folder says that it is one; nothing is made there."""
+    if not any((folder / sign).exists() for sign in SIGNS):
+        raise CourseError(
+            f"{folder.resolve()} is not a course: it has no nbgrader_config.py; "
+            "go to the course's folder, name it with --course, or make one with `directrix new FOLDER`"
+        )
+    from autograder.course import Course
+
+    return Course(folder)
 
 
 def console_for(as_json: bool) -> Console:

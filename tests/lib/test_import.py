@@ -28,16 +28,6 @@ def test_the_forms_of_the_first_assignments_need_numpy_only():
     assert in_a_fresh_process(code) == []
 
 
-def test_importing_is_no_slower_than_its_peers():
-    """At most 1.3 times numpy and scipy.interpolate together, each in a fresh process, the best of three."""
-    timed = "import time; start = time.perf_counter(); import {}; print(time.perf_counter() - start)"
-    mine, peers = (
-        min(float(in_a_fresh_process(timed.format(modules))[0]) for _ in range(3))
-        for modules in ("directrix", "numpy, scipy.interpolate")
-    )
-    assert mine <= 1.3 * peers
-
-
 @pytest.mark.parametrize("name", sorted(dx.__all__))
 def test_every_exported_name_is_there_and_documented(name):
     """The table of names and the modules agree; what is exported says what it is."""
