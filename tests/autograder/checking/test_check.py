@@ -159,7 +159,7 @@ def test_an_interrupt_is_told_apart(capsys):
         (None, "check was given nothing (None)"),
         (np.zeros((4, 3)), "check was given an array of shape (4, 3)"),
         (lambda u, w: u, "has no name"),
-        (named(right, "Cilinder"), "Did you mean cylinder? Then write def cylinder(u, w, r, h):"),
+        (named(right, "Cilinder"), "Then write def cylinder(u, w, r, h):"),
         (named(right, "zzz"), "There are: cylinder, "),
         (functools.partial(named(right, "zzz"), r=1), "no exercise called zzz"),
     ],
