@@ -15,7 +15,8 @@
         return ...
 
 Its id is the name of the function. The leading arguments of a surface (u, w), curve (u), solid (u, v, w) and mask (u, w)
-are parameters that the judge chooses; all other arguments come from the data sets, by name.
+are parameters that the judge chooses; all other arguments come from the data sets, by name. A field (u, w) is vectors over the
+square, such as normals: compared one by one, as nothing is meant by moving or relabelling them.
 """
 
 from __future__ import annotations
@@ -32,8 +33,14 @@ from autograder.curvedata import CurveData, as_curve
 from autograder.errors import ExerciseError
 from autograder.result import LADDER, Tier
 
-Kind = Literal["surface", "curve", "solid", "basis", "net", "value", "mask", "label"]
-PARAMETERS: dict[str, tuple[str, ...]] = {"surface": ("u", "w"), "curve": ("u",), "solid": ("u", "v", "w"), "mask": ("u", "w")}
+Kind = Literal["surface", "curve", "solid", "field", "basis", "net", "value", "mask", "label"]
+PARAMETERS: dict[str, tuple[str, ...]] = {
+    "surface": ("u", "w"),
+    "curve": ("u",),
+    "solid": ("u", "v", "w"),
+    "field": ("u", "w"),
+    "mask": ("u", "w"),
+}
 PUBLIC_SEED = 0
 TOLERANCE = 1e-9
 # What an answer below "identical" earns unless the exercise says otherwise. A surface that is right but for its labels or its
@@ -188,7 +195,7 @@ def exercise(
         Points of its graded cell, above 0.
     title : str
         What a card and a table call it.
-    kind : {"surface", "curve", "solid", "basis", "net", "value", "mask", "label"}
+    kind : {"surface", "curve", "solid", "field", "basis", "net", "value", "mask", "label"}
         What the function answers, which decides how answers are compared.
     accept : mapping of tier to credit in [0, 1], optional
         Tiers below "identical" that earn credit here, over the defaults of ``TIER_CREDIT``.

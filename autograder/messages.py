@@ -20,6 +20,7 @@ TEXT: dict[str, str] = {
     "noun.surface": "surface",
     "noun.curve": "curve",
     "noun.solid": "solid",
+    "noun.field": "field of vectors",
     "noun.basis": "set of functions",
     "noun.net": "net",
     "noun.value": "value",
@@ -132,8 +133,10 @@ TEXT: dict[str, str] = {
     "fact.coordinate_offset": "{name} is off by {offset} everywhere.",
     "fact.coordinates_exchanged": "Its coordinates are exchanged: your {yours} is the right {expected}.",
     "fact.factor": "Every point is {factor} times as far from the origin as it should be.",
+    "fact.factor_field": "Every vector is {factor} times as long as it should be.",
     # --- where
     "where.point": "Furthest off on {data}, at {place}: your point is {yours}, the right one is {expected}.",
+    "where.vector": "Furthest off on {data}, at {place}: your vector is {yours}, the right one is {expected}.",
     "where.value": "On {data}, at {place}: you have {yours}, the right one is {expected}.",
     "where.entry": "Furthest off on {data}: {place} is {yours}, the right one is {expected}.",
     "where.number": "On {data}: you have {yours}, the right one is {expected}.",

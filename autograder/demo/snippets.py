@@ -20,6 +20,7 @@ MARKER = re.compile(r"^# %% (?P<name>\w+(?:: \w+)?)\n", re.MULTILINE)
 # What a learner's function gives back who has nothing: an answer of the right form, worth nothing.
 NOTHING = {
     "surface": "np.zeros(np.broadcast(u, w).shape + (3,))",
+    "field": "np.zeros(np.broadcast(u, w).shape + (3,))",
     "solid": "np.zeros(np.broadcast(u, v, w).shape + (3,))",
     "curve": "np.zeros(np.shape(u) + (3,))",
     "mask": "np.zeros(np.broadcast(u, w).shape, bool)",

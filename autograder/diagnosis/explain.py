@@ -355,7 +355,8 @@ class Explanation:
             look = say("look.scale")
         else:
             look = say("look.coordinate", names=facts.get("name") or facts.get("yours", ""))
-        return [say(fact.key, **facts)], look
+        vectors = fact.key == "fact.factor" and self.exercise.kind == "field"
+        return [say("fact.factor_field" if vectors else fact.key, **facts)], look
 
     def _mask(self, f: Sampled) -> tuple[list[str], str]:
         bad = f.deviations > f.target.allowed
@@ -369,7 +370,7 @@ class Explanation:
         if f.values.ndim == 1:
             yours, expected = spoken_truth(f.values[i]), spoken_truth(f.expected[i])
         at, data = place(self._names(), f.points[i]), self._described(f.target)
-        key = "where.value" if f.values.ndim == 1 else "where.point"
+        key = {"mask": "where.value", "field": "where.vector"}.get(self.exercise.kind, "where.point")
         return say(key, place=at, data=data, yours=yours, expected=expected)
 
     # --- values

@@ -24,7 +24,9 @@ ONE_BY_ONE = 13  # lines where a function takes single numbers only
 def figure_of(finding: Finding, call: Callable[..., Any]) -> Figure | None:
     """Both maps of this finding on a grid; None for what has no picture. A solid shows one layer of its last parameter."""
     target = finding.target
-    if target.hidden or target.raises or not target.is_map or target.values.ndim != 2 or target.values.shape[1] != 3:
+    if target.hidden or target.raises or not target.is_map or target.exercise.kind == "field":
+        return None
+    if target.values.ndim != 2 or target.values.shape[1] != 3:
         return None
     f = finding.sampled
     worst = tuple(float(x) for x in f.points[worst_index(f)]) if f is not None and not finding.right else None

@@ -97,11 +97,13 @@ def find(gated: Gated) -> Finding:
 
 
 def climb(finding: Finding) -> None:
-    """The cheap rungs for a map: relabelled, close, other start."""
+    """The cheap rungs for a map: relabelled, close, other start. Vectors are no places: they are close or they are not."""
     f = finding.on_ladder
     if f is None:
         return
-    if symmetries := relabellings(f):
+    if f.target.exercise.kind == "field":
+        finding.tier = "close" if f.close else finding.tier
+    elif symmetries := relabellings(f):
         finding.tier, finding.symmetries = "relabelled", symmetries
     elif f.close:
         finding.tier = "close"
@@ -112,7 +114,7 @@ def climb(finding: Finding) -> None:
 def search(finding: Finding, call: Callable[..., Any] | None) -> None:
     """The rungs for sets and motions. Without ``call`` only what needs no further call: moved, point by point."""
     f = finding.on_ladder
-    if f is None or finding.tier != "different":
+    if f is None or finding.tier != "different" or f.target.exercise.kind == "field":
         return
     probe = Probe(finding.gated, call) if call is not None else None
     with np.errstate(all="ignore"):
