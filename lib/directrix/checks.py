@@ -250,7 +250,7 @@ def _real(name: str, value: Any) -> Array:
                 raise TypeError("None stands for no number")
             given = given.astype(np.float64)
         return np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         kind = "rows of unequal length" if "inhomogeneous" in str(error) else repr(value)[:60]
         raise ShapeError(f"{name} must be real numbers; got {kind}.", name=name) from None
 

@@ -23,6 +23,8 @@ from directrix.surfaces.bezier import BezierPatch
 from directrix.surfaces.spline import BSplinePatch, NurbsPatch
 from directrix.surfaces.surface import Surface
 
+MOST = 32  # elevations at once: beyond this binomials and blossoms lose their digits
+
 BEZIERS = BezierCurve | BezierPatch
 SPLINES = BSplineCurve | BSplinePatch | NurbsCurve | NurbsPatch
 
@@ -63,8 +65,10 @@ def elevate(form: Any, u: int | None = None, w: int | None = None) -> Any:
     curve = isinstance(form, Curve)
     if curve and w is not None:
         raise OrderError("a curve has one parameter: give u alone.")
-    u, w = (1, 1) if u is None and w is None else (u or 0, w or 0)
-    times = [checks.whole("u", u)] if curve else [checks.whole("u", u), checks.whole("w", w)]
+    rest = 1 if u is None and w is None else 0
+    times = [rest if n is None else checks.whole(name, n) for name, n in (("u", u), ("w", w))][: 1 if curve else 2]
+    if max(times) > MOST:
+        raise OrderError(f"a degree is raised at most {MOST} times at once; got {max(times)!r:.30}.")
     if isinstance(form, BezierCurve):
         return BezierCurve(elevated(form.control_points, times[0]))
     if isinstance(form, BezierPatch):
@@ -245,7 +249,10 @@ def _nearby(knots: KnotVector, at: float) -> float:
     """The knot parameter of u = at: an existing knot if it is that to rounding."""
     t = float(knots.stretch(np.float64(at)))
     nearest = float(knots.values[np.abs(knots.values - t).argmin()])
-    return nearest if abs(nearest - t) <= 1e-12 * (knots.end - knots.start) else t
+    t = nearest if abs(nearest - t) <= 1e-12 * (knots.end - knots.start) else t
+    if not knots.start < t < knots.end:
+        raise KnotError(f"an inner knot is asked for; {at:g} is an end of the domain to rounding.")
+    return t
 
 
 def _along_axes(form: Any, changes: list[Any]) -> Any:

@@ -143,7 +143,7 @@ def sphericity(points: ArrayLike, method: str = "least squares") -> FormError:
     >>> sphericity([(2, 0, 0), (-2, 0, 0), (0, 2, 0), (0, -2, 0), (0, 0, 2), (0, 0, -2)]).value
     0.0
     """
-    if method == "algebraic":
+    if isinstance(method, str) and method == "algebraic":
         X = checks.points("points", points, least=5)
         return FormError(algebraic_sphere(X), X, method)
     return _fitted(points, 5, fit_sphere, method, extra=("algebraic",))

@@ -54,6 +54,8 @@ def quadric_patches(quadric: Quadric, extent: float | None = None) -> tuple[Surf
     >>> bool(abs(x * y - z) < 1e-12)
     True
     """
+    if not isinstance(quadric, Quadric):
+        raise ConversionError(f"quadric_patches draws a Quadric; got {type(quadric).__name__}. Known forms have .implicit().")
     form = quadric.classify()
     if form.center is None or form.axes is None or form.radii is None or form.kind in ("line", "point"):
         raise ConversionError(f"this quadric is {_article(form.kind)}: there is no surface to draw.")
