@@ -28,12 +28,18 @@ LISTED = {
     "bilinear_is_planar": "parallelogram absolute_tol always_planar",
     "ruled": "ends_exchanged no_one_minus one_reversed average different_points",
     "ruled_circles": "phase_degrees phase_ignored phase_negative phase_on_both swap_uw",
+    "bernstein": "no_binomials order_for_degree power_typo nan_at_ends",
+    "bezier_patch": "transposed no_binomials reversed_u net_piecewise elementwise",
+    "iso_curve_net": "nearest_row points_not_controls other_direction rows_interpolated",
+    "bezier_to_hermite": "no_3 twist_3 twist_zero twist_all_plus transposed",
+    "hermite_to_bezier": "no_third twist_third twist_forgotten far_end_plus twist_sign_mixed",
 }
 ASSIGNMENTS = {
     "A1": ["cylinder", "frustum", "sphere", "torus", "torus_class"],
     "A2": ["direction_cosines", "linear_sweep", "linear_sweep_points", "plane3", "triangle_mask", "triangle_patch"],
     "A3": ["revolve_y", "revolve_coord", "cone_from_line", "revolve_xy_axis", "revolve_axis"],
     "A4": ["translational_sweep", "vase", "bilinear", "bilinear_is_planar", "ruled", "ruled_circles"],
+    "A6": ["bernstein", "bezier_patch", "iso_curve_net", "bezier_to_hermite", "hermite_to_bezier"],
 }
 
 
