@@ -80,7 +80,7 @@ class _Work:
 
     def __init__(self, plan: Plan, student: str, submitted: Submission) -> None:
         self.plan, self.student, self.submitted = plan, student, submitted
-        self.files: dict[str, bytes] = dict(submitted.others)
+        self.files = beside(submitted.others, plan.instructor_files)
         self.written: dict[str, bytes] = {}
         self.marks: dict[str, NotebookMarks] = {}
         self.cells: list[CellReport] = []
@@ -94,6 +94,10 @@ class _Work:
         """Grade one notebook, or say why not."""
         course = self.plan.course
         data = self.submitted.notebooks.get(name)
+        reason = self.submitted.left_out.get(f"{name}.ipynb")
+        if data is None and reason is not None:  # too large, say: it was handed in, and somebody should know
+            self._unread(name, master, reason)
+            return
         if data is None:
             self.marks[name] = NotebookMarks(missing=True)
             self._report(name, master, {cell.name: Mark(0.0) for cell in master.graded})
@@ -102,9 +106,7 @@ class _Work:
         try:
             built = rebuild(parse(data), master, add_missing=course.add_missing, missing=course.missing_notification)
         except SubmissionError as error:
-            self.marks[name] = NotebookMarks(broken=True)
-            self.broken.append(f"{name}.ipynb: {error}")
-            self._report(name, master, {})
+            self._unread(name, master, str(error))
             return
         ran = self._run(built, master, digest(data))
         limit.ignore_stderr(built.cells, course.ignore_pattern)
@@ -120,6 +122,11 @@ class _Work:
         self._report(name, master, given, built, ran)
         self.written[f"{name}.ipynb"] = dumps(built.notebook)
 
+    def _unread(self, name: str, master: Master, reason: str) -> None:
+        self.marks[name] = NotebookMarks(broken=True)
+        self.broken.append(f"{name}.ipynb: {reason}")
+        self._report(name, master, {})
+
     def _run(self, built: Rebuilt, master: Master, submission: str) -> Ran:
         def seed(exercise: str) -> bytes:
             return hidden_seed(self.plan.secret, self.student, exercise, submission)
@@ -127,7 +134,8 @@ class _Work:
         files = {**self.files, **self.plan.instructor_files}
         ran = run(built, lambda: self.plan.open_session(files), self.plan.exercises, seed, uses_check=master.uses_check)
         kept = {path: data for path, data in ran.files.items() if harmless(path) and path not in self.plan.instructor_files}
-        self.files |= kept
+        self.files = beside(self.files, kept)
+        self.files = beside({**self.files, **kept}, self.plan.instructor_files)
         return ran
 
     def _report(
@@ -147,6 +155,16 @@ class _Work:
             }  # fmt: skip
             verdict = how.verdict if how is not None else None
             self.cells.append(CellReport(**fields) if verdict is None else CellReport.of_verdict(verdict, **fields))
+
+
+def beside(files: Mapping[str, bytes], first: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The files that can lie in one folder with the ``first`` ones: none is a folder there, none lies in a file there."""
+    folders = {str(parent) for path in first for parent in PurePosixPath(path).parents}
+    return {
+        path: data
+        for path, data in files.items()
+        if path not in folders and not any(str(parent) in first for parent in PurePosixPath(path).parents)
+    }
 
 
 def harmless(path: str) -> bool:

@@ -11,7 +11,6 @@ import fnmatch
 import hashlib
 import json
 import os
-import re
 import stat
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -19,10 +18,10 @@ from pathlib import Path
 from typing import Any
 
 from autograder.errors import SubmissionError
+from autograder.sandbox.session import plain_name
 
 IGNORE = (".ipynb_checkpoints", "*.pyc", "__pycache__", "feedback")  # nbgrader's own default
 MAX_DEPTH = 12
-STRANGE = re.compile(r"[\x00-\x1f\x7f\ud800-\udfff]")
 
 
 @dataclass(frozen=True)
@@ -37,9 +36,13 @@ class Bounds:
 
 @dataclass
 class Submission:
-    """The regular files of a folder by their path in it (``/`` between parts), and what was left out, and why."""
+    """The regular files of a folder by their path in it (``/`` between parts), and what was left out, and why.
+
+    ``left_out`` has the reasons by path, ``notes`` the same as sentences and what else was noticed.
+    """
 
     files: dict[str, bytes] = field(default_factory=dict)
+    left_out: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
 
     @property
@@ -109,8 +112,8 @@ class _Reader:
     def walk(self, folder: int, prefix: str, depth: int) -> None:
         for name in self._names(folder, prefix):
             path = prefix + name
-            if STRANGE.search(name) or len(name) > 200:
-                self.found.notes.append(f"{_shown(path)}: left out, its name has characters that a file's name should not have")
+            if not plain_name(name) or len(name) > 200:
+                self._leave_out(path, "its name has characters that a file's name should not have")
                 continue
             try:
                 if stat.S_ISDIR(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
@@ -118,9 +121,13 @@ class _Reader:
                 else:
                     self._take(folder, name, path)
             except SubmissionError as error:
-                self.found.notes.append(f"{_shown(path)}: left out, {error}")
+                self._leave_out(path, str(error))
             except OSError as error:
-                self.found.notes.append(f"{_shown(path)}: left out, it cannot be read ({error.strerror})")
+                self._leave_out(path, f"it cannot be read ({error.strerror})")
+
+    def _leave_out(self, path: str, reason: str) -> None:
+        self.found.left_out[path] = reason
+        self.found.notes.append(f"{_shown(path)}: left out, {reason}")
 
     def _names(self, folder: int, prefix: str) -> Iterator[str]:
         with os.scandir(folder) as listing:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import unicodedata
 from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Literal
@@ -117,7 +118,7 @@ class Session:
     def start(self, files: Mapping[str, bytes], environment: Mapping[str, str], seed: int) -> None:
         """Have the child lay out its files and confine itself. Called once, by the sandbox."""
         for name in files:
-            if not all(map(_plain_name, name.split("/"))):
+            if not all(map(plain_name, name.split("/"))):
                 raise SandboxError(f"a notebook's files have relative paths of plain names; got {name!r}")
         action = Action(messages.START, START_SECONDS, START_SECONDS, 2**20)
         try:
@@ -228,13 +229,15 @@ def _checked_files(answer: Any, limits: Limits) -> dict[str, bytes]:
         if not (isinstance(item, tuple) and len(item) == 2 and isinstance(item[0], str) and isinstance(item[1], bytes)):
             continue
         name, content = item
-        if len(name) <= 1000 and all(_plain_name(part) for part in name.split("/")):
+        if len(name) <= 1000 and all(plain_name(part) for part in name.split("/")):
             files[name] = content
     folders = {name.rsplit("/", depth)[0] for name in files for depth in range(1, name.count("/") + 1)}
     return {name: content for name, content in files.items() if name not in folders}
 
 
-def _plain_name(part: str) -> bool:
-    return (
-        0 < len(part.encode("utf-8", "replace")) <= 255 and part not in (".", "..") and part.isprintable() and "\\" not in part
-    )
+def plain_name(part: str) -> bool:
+    """Whether a file or folder may have this name: no path, nothing that steers a terminal. Spaces of every width may be in it:
+    macOS puts a narrow one into the name of each screenshot.
+    """
+    shown = all(letter.isprintable() or unicodedata.category(letter) == "Zs" for letter in part)
+    return 0 < len(part.encode("utf-8", "replace")) <= 255 and part not in (".", "..") and shown and "\\" not in part

@@ -133,7 +133,48 @@ def test_a_notebook_that_is_a_link_to_a_classmates_is_not_read(ordinary):
     place = ordinary.hand_in("bob", {"two": ADD})
     (place / "one.ipynb").symlink_to(good / "one.ipynb")
     graded = fleet.grade(ordinary.course(), "ps1")
-    assert points(graded, "bob")["test_square"] == 0.0
+    assert points(graded, "bob")["test_square"] is None
+    assert graded.broken == ("bob: one.ipynb: it is a link, not a file",)
+
+
+def test_a_notebook_that_is_too_large_is_named_and_not_called_missing(ordinary):
+    """Figures make notebooks large; a learner whose work is left out for that must not pass for one who handed in nothing."""
+    from autograder.notebook.submission import Bounds
+
+    course = ordinary.course()
+    ordinary.hand_in("ada", {"one": RIGHT, "two": ADD})
+    assert points(fleet.grade(course, "ps1"), "ada")["test_square"] == 2.0
+    large = json.dumps({"nbformat": 4, "cells": [], "metadata": {"x": "x" * Bounds().notebook}})
+    ordinary.hand_in("ada", {"one": large, "two": large})
+    graded = fleet.grade(course, "ps1")
+    assert graded.student("ada").status == "broken"
+    assert points(graded, "ada") == dict.fromkeys(points(graded, "ada"))
+    assert "bytes are more than" in graded.broken[0]
+
+
+def test_a_file_where_others_need_a_folder_gives_way(ordinary):
+    """A file of the learner's called like a folder of the instructor's, and a folder turned into a file by the notebook."""
+    (ordinary.folder / "source/ps1/tables").mkdir()
+    (ordinary.folder / "source/ps1/tables/a.csv").write_bytes(b"1,2")
+    turn = "import os, shutil; os.makedirs('mine', exist_ok=True); shutil.rmtree('mine'); open('mine', 'w').write('x')"
+    turn += "\nshutil.rmtree('tables'); open('tables', 'w').write('x')"
+    place = ordinary.hand_in("ada", {"one": {**RIGHT, "square": f"{RIGHT['square']}\n{turn}"}, "two": ADD})
+    (place / "tables").write_bytes(b"not a folder")
+    (place / "mine").mkdir()
+    (place / "mine" / "b.txt").write_bytes(b"b")
+    graded = fleet.grade(ordinary.course(), "ps1")
+    assert graded.failures == ()
+    assert points(graded, "ada")["test_square"] == 2.0
+    done = ordinary.folder / "autograded/ada/ps1"
+    assert (done / "tables/a.csv").read_bytes() == b"1,2"
+    assert (done / "mine").read_bytes() == b"x"
+
+
+def test_a_long_id_in_another_script_is_graded_once(ordinary):
+    student = "\u65e5\u672c" * 40  # 240 bytes, a folder's name; quoted they are too many for a file's
+    ordinary.hand_in(student, {"one": RIGHT, "two": ADD})
+    assert fleet.grade(ordinary.course(), "ps1").student(student).status == "graded"
+    assert fleet.grade(ordinary.course(), "ps1").student(student).status == "unchanged"
 
 
 def test_files_of_the_learner_are_kept_but_never_over_the_instructors(ordinary):

@@ -40,6 +40,16 @@ def test_links_fifos_and_sockets_are_named_and_left_out(tmp_path):
     ]  # fmt: skip
 
 
+def test_names_that_the_sandbox_would_refuse_are_left_out_and_the_rest_is_read(tmp_path):
+    screenshot = "Screenshot 2027-01-01 at 10.00.00\u202fAM.png"  # as macOS names it
+    for name in (screenshot, "né.txt", "no\u00a0break.txt", "back\\slash", "new\nline", "esc\x1b[31m", "turned\u202e.txt"):
+        (tmp_path / name).write_bytes(b"x")
+    found = read_folder(tmp_path)
+    assert set(found.files) == {screenshot, "né.txt", "no\u00a0break.txt"}
+    assert set(found.left_out) == {"back\\slash", "new\nline", "esc\x1b[31m", "turned\u202e.txt"}
+    assert all(note.isprintable() for note in found.notes)
+
+
 def test_the_folder_itself_may_not_be_a_link(tmp_path):
     (tmp_path / "real").mkdir()
     (tmp_path / "link").symlink_to(tmp_path / "real", target_is_directory=True)
