@@ -159,6 +159,8 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
         return CellRun("judged", _unjudged(name, runner.spent, exercise), runner.spent)
 
     def call(*args: Any) -> Any:
+        if runner.late:  # a function that sleeps in each of hundreds of calls must not keep the class waiting
+            raise SandboxError(runner.spent)
         return session.call(name, args)
 
     try:
@@ -167,6 +169,8 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
         log.exception("the judge failed on %s", name)
         note = runner.fault(f"{name}: the judge failed ({type(error).__name__}: {error})")
         return CellRun("judged", _unjudged(name, "The judge itself failed, so this could not be judged.", exercise), note)
+    if verdict.outcome == "could not judge" and runner.late:
+        return CellRun("judged", _unjudged(name, runner.spent, exercise), runner.spent)
     if verdict.outcome == "could not judge":
         return CellRun("judged", verdict, runner.fault(f"{name}: {verdict.message}"))
     return CellRun("judged", verdict)
@@ -194,17 +198,21 @@ class _Runner:
             if self.restarts >= MAX_RESTARTS:
                 self.spent = f"Not run: this notebook ended its process more than {MAX_RESTARTS} times before."
                 return None
-            if time.monotonic() > self.deadline:
-                self.spent = "Not run: the time for this notebook was used up by the cells before."
+            if self.late:
                 return None
             self.stack.close()
             self.restarts += 1
             self.session = self.stack.enter_context(self.open_session())
             self._replay()
-        if time.monotonic() > self.deadline:
-            self.spent = "Not run: the time for this notebook was used up by the cells before."
-            return None
-        return self.session
+        return None if self.late else self.session
+
+    @property
+    def late(self) -> bool:
+        """Whether the time for the whole notebook is used up; ``spent`` says so then."""
+        if time.monotonic() <= self.deadline:
+            return False
+        self.spent = "Not run to its end: the time for this notebook was used up."
+        return True
 
     def _replay(self) -> None:
         for source in list(self.good):

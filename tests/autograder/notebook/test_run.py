@@ -3,6 +3,7 @@
 import ast
 import contextlib
 import io
+import time
 import traceback
 
 import numpy as np
@@ -236,6 +237,23 @@ def test_no_time_left_means_no_mark():
     _, _, given = graded(instructors, cell("", "t"), seconds=-1.0)
     assert given["t"].points is None
     assert "time" in given["t"].note
+
+
+def test_a_function_that_sleeps_in_every_call_does_not_keep_the_class_waiting():
+    """Each call stays below its limit, and the judge makes hundreds: no mark, no fault of ours, and the time is bounded."""
+
+    class Sleepy(FakeSession):
+        def call(self, name, args):
+            time.sleep(0.02)
+            return np.random.default_rng().random((*np.broadcast(*args[:2]).shape, 3))
+
+    instructors = master(a_test("t", "check(cylinder)", 4.0))
+    started = time.monotonic()
+    _, ran, given = graded(instructors, cell("", "t"), session=Sleepy, seconds=0.1)
+    assert time.monotonic() - started < 1
+    assert given["t"].points is None
+    assert "time" in given["t"].note
+    assert ran.faults == []
 
 
 def test_a_tag_of_the_submission_does_not_skip_a_test():
