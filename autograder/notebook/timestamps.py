@@ -15,6 +15,7 @@ from autograder.errors import SubmissionError
 
 FILE = "timestamp.txt"
 _OFFSET = re.compile(r"([+-])(\d\d):?(\d\d)")
+_ZONE = re.compile(r"[A-Za-z][A-Za-z0-9_+-]*(/[A-Za-z0-9_+-]+)*")
 
 
 def handed_in(files: Mapping[str, bytes]) -> datetime.datetime | None:
@@ -40,6 +41,8 @@ def parse_utc(text: str) -> datetime.datetime:
     parts = text.split(" ")
     if len(parts) == 3:
         numeric = _OFFSET.fullmatch(parts[2])
+        if numeric is None and not _ZONE.fullmatch(parts[2]):
+            raise ValueError("no name of a time zone")  # dateutil takes it for the path of a file
         zone = int(f"{numeric[1]}1") * 60 * (60 * int(numeric[2]) + int(numeric[3])) if numeric else tz.gettz(parts[2])
         when = parser.parse(" ".join([*parts[:2], "TZ"]), tzinfos={"TZ": zone})
     else:

@@ -112,6 +112,12 @@ def test_dates_are_read_as_nbgrader_reads_them(text):
     assert parse_utc(text) == nbgraders(text)
 
 
+@pytest.mark.parametrize("zone", ["../../../../etc/passwd", "/etc/localtime", "A/../../x", "A\x1b[31m", "X" * 150 + "/"])
+def test_a_zone_is_a_name_and_never_the_path_of_a_file(zone):
+    with pytest.raises(ValueError, match="zone"):
+        parse_utc(f"2027-02-01 13:00:00 {zone}")
+
+
 def test_a_numeric_zone_is_hours_and_minutes():
     """nbgrader takes +0130 for 130 seconds."""
     from nbgrader.utils import parse_utc as nbgraders
