@@ -3,8 +3,8 @@
 Allowed are the calls by which a single process computes and works with files it may open anyway. Everything else fails
 with EPERM: starting processes and programs (fork, vfork, clone without CLONE_THREAD, execve), memory that no limit counts
 (memfd_create, System V shared memory, io_uring), other processes (ptrace, process_vm_readv, pidfd_*), sockets (but for
-``socketpair`` of streams, which asyncio needs), namespaces, mounts, keys, bpf, userfaultfd, device nodes, ownership and
-priorities.
+``socketpair`` of streams, which asyncio needs), namespaces, mounts, keys, bpf, userfaultfd, device nodes, ownership,
+priorities and resource limits.
 ``clone3`` and calls newer than this table give ENOSYS, for which the C library has a second way. Calls of another
 architecture (32-bit and x32) kill the process.
 
@@ -45,7 +45,7 @@ ALLOWED = """
     clock_gettime:228:113 clock_getres:229:114 gettimeofday:96:169 time:201:- times:100:153 timerfd_create:283:85
     timerfd_settime:286:86 timerfd_gettime:287:87 getpid:39:172 getppid:110:173 gettid:186:178 getuid:102:174
     geteuid:107:175 getgid:104:176 getegid:108:177 getresuid:118:148 getresgid:120:150 getgroups:115:158 getpgid:121:155
-    getpgrp:111:- getsid:124:156 getrlimit:97:163 setrlimit:160:164 getrusage:98:165 sysinfo:99:179 uname:63:160
+    getpgrp:111:- getsid:124:156 getrlimit:97:163 getrusage:98:165 sysinfo:99:179 uname:63:160
     getrandom:318:278 capget:125:90 select:23:- pselect6:270:72 poll:7:- ppoll:271:73 epoll_create:213:-
     epoll_create1:291:20 epoll_ctl:233:21 epoll_wait:232:- epoll_pwait:281:22 epoll_pwait2:441:441 eventfd:284:-
     eventfd2:290:19 sendto:44:206 recvfrom:45:207 sendmsg:46:211 recvmsg:47:212 recvmmsg:299:243 shutdown:48:210
@@ -121,7 +121,7 @@ def _ranges(column: int) -> list[tuple[int, Code]]:
         "socketpair": _masked(0, 0xFFFFFFFF, AF_UNIX, then=_masked(1, SOCK_TYPE_MASK, SOCK_STREAM)),
         "ioctl": _one_of(1, IOCTLS, errno.ENOTTY),
         "prctl": _one_of(0, PRCTLS, errno.EPERM),
-        "prlimit64": _one_of(0, (0,), errno.EPERM),
+        "prlimit64": _own_limits_read(),
         "clone3": [(RETURN, 0, 0, ERRNO | errno.ENOSYS)],
     }  # fmt: skip
     for name, number in numbers(CONDITIONAL, column).items():
@@ -151,6 +151,14 @@ def _masked(argument: int, mask: int, wanted: int, then: Code | None = None) -> 
         (RETURN, 0, 0, ERRNO | errno.EPERM),
         *(then or [(RETURN, 0, 0, ALLOW)]),
     ]
+
+
+def _own_limits_read() -> Code:
+    """prlimit64(pid 0, which, no new limit, old): who lowers a limit of its own is ended by the kernel as if by the machine."""
+    code: Code = []
+    for half in (ARGUMENTS, ARGUMENTS + 16, ARGUMENTS + 20):  # pid, then both halves of the pointer to the new limit
+        code += [(LOAD, 0, 0, half), (EQUAL, 1, 0, 0), (RETURN, 0, 0, ERRNO | errno.EPERM)]
+    return [*code, (RETURN, 0, 0, ALLOW)]
 
 
 def _one_of(argument: int, values: Sequence[int], otherwise: int) -> Code:

@@ -120,6 +120,9 @@ def test_terminal_and_limit_calls_by_their_arguments(machine):
     assert decide(machine, number(machine, "ioctl"), [0, 0x5412]) == ERRNO["ENOTTY"]  # TIOCSTI types into a terminal
     assert decide(machine, number(machine, "prlimit64"), [0]) == ALLOW
     assert decide(machine, number(machine, "prlimit64"), [1]) == ERRNO["EPERM"]
+    for new in (1, 1 << 32, 0x7FFF_DEAD_BEEF):  # where the new limit lies
+        assert decide(machine, number(machine, "prlimit64"), [0, 0, new]) == ERRNO["EPERM"]
+    assert decide(machine, {"x86_64": 160, "aarch64": 164}[machine]) == ERRNO["EPERM"]  # setrlimit
     assert decide(machine, number(machine, "prctl"), [15]) == ALLOW
     assert decide(machine, number(machine, "prctl"), [4]) == ERRNO["EPERM"]  # PR_SET_DUMPABLE
 
