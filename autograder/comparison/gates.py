@@ -22,6 +22,8 @@ from autograder.comparison.samples import Form
 from autograder.comparison.target import ROUNDING, Target
 from autograder.result import Tier
 
+LARGEST = 1e150  # beyond it squares of lengths, of which all comparisons are made, overflow
+
 
 @dataclass(frozen=True)
 class Gate:
@@ -213,7 +215,7 @@ def _sampled(asked: Asked, handled: list[Form]) -> Sampled:
 
 
 def _finite_gate(f: Sampled) -> Gate | None:
-    bad: NDArray[np.bool_] = np.asarray(~np.isfinite(f.values).reshape(len(f.values), -1).all(axis=1))
+    bad: NDArray[np.bool_] = np.asarray(~(np.abs(f.values) < LARGEST).reshape(len(f.values), -1).all(axis=1))
     if not bad.any():
         return None
     place = f.points[bad]

@@ -240,6 +240,10 @@ class TestGates:
         message = self.message(tube, lambda u, w, r, h: right(u, w, r, h) * np.asarray(w / w)[..., None], "not finite")
         assert "on edges, such as u = 0, w = 0" in message
 
+    @pytest.mark.parametrize("size", [1e155, 1e300])
+    def test_numbers_whose_squares_overflow_are_the_learners_not_the_judges(self, tube, size):
+        self.message(tube, lambda u, w, r, h: right(u, w, r, h) * 0 + size * np.array([1, -1, 1]), "not finite")
+
     def test_not_a_number_at_a_corner_names_the_corner(self, tube):
         def call(u, w, r, h):
             u, w = np.broadcast_arrays(np.asarray(u, dtype=float), w)
