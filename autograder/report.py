@@ -18,6 +18,7 @@ from rich.text import Text
 from autograder.fleet import CellReport, GradeReport, StudentReport
 
 MOST_MISTAKES = 3
+WIDEST_NAME = 22
 STATUS = {
     "graded": ("graded", ""),
     "unchanged": ("unchanged", "dim"),
@@ -86,7 +87,7 @@ def summary(graded: GradeReport) -> dict[str, Any]:
 
 def table(graded: GradeReport) -> Group:
     """The class as a table of students and a table of what it found hard."""
-    shown: list[Any] = [_students(graded)]
+    shown: list[Any] = [_students(graded), _legend(graded)]
     found = parts(graded)
     if any(part.mistakes or part.mean is not None for part in found):
         shown += ["", _class(found)]
@@ -98,13 +99,15 @@ def table(graded: GradeReport) -> Group:
 
 
 def _students(graded: GradeReport) -> Table:
-    made = Table(title=f"{graded.assignment}: {len(graded.students)} submissions", title_justify="left", header_style="bold")
-    made.add_column("student", overflow="fold")
-    columns = list(dict.fromkeys((cell.notebook, cell.name) for student in graded.students for cell in student.cells))
-    for _, name in columns:
-        made.add_column(name.removeprefix("check_"), justify="right", overflow="fold")
-    made.add_column("points", justify="right")
-    made.add_column("", overflow="fold")
+    title = f"{graded.assignment}: {len(graded.students)} submissions"
+    made = Table(title=title, title_justify="left", header_style="bold", expand=True)
+    longest = max((len(student.student) for student in graded.students), default=0)
+    made.add_column("student", overflow="fold", min_width=min(longest, WIDEST_NAME))
+    columns = _columns(graded)
+    for number in range(1, len(columns) + 1):
+        made.add_column(str(number), justify="right", no_wrap=True)
+    made.add_column("points", justify="right", no_wrap=True)
+    made.add_column("", no_wrap=True, overflow="ellipsis", ratio=1)
     for student in graded.students:
         cells = {(cell.notebook, cell.name): cell for cell in student.cells}
         made.add_row(
@@ -114,6 +117,17 @@ def _students(graded: GradeReport) -> Table:
             _remark(student),
         )
     return made
+
+
+def _columns(graded: GradeReport) -> list[tuple[str, str]]:
+    """The graded cells of the class, (notebook, name), in their order."""
+    return list(dict.fromkeys((cell.notebook, cell.name) for student in graded.students for cell in student.cells))
+
+
+def _legend(graded: GradeReport) -> Text:
+    """Which cell each number at the head of the table means: numbers leave room for the marks on a narrow screen."""
+    names = (name.removeprefix("check_") for _, name in _columns(graded))
+    return Text(_plain("   ".join(f"{number} {name}" for number, name in enumerate(names, 1))), style="dim")
 
 
 def _points(cell: CellReport | None) -> Text:
