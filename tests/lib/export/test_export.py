@@ -153,7 +153,7 @@ def test_mesh_files_are_read_back(suffix, tmp_path):
 )  # fmt: skip
 def test_step_there_and_back(form, tmp_path):
     """The file holds the NURBS itself: control points, weights and knots come back to the digits that STEP prints."""
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: uv sync --group oracles")
     (back,) = export.read(export.write(tmp_path / "form.step", form))
     written = dx.to_nurbs(form)
     np.testing.assert_allclose(back(U, W), written(U, W), atol=1e-12 * (1 + np.abs(written.control_net).max()))
@@ -162,7 +162,7 @@ def test_step_there_and_back(form, tmp_path):
 
 def test_step_of_a_torn_patch_and_a_solid(tmp_path):
     """A tear becomes two faces, a solid six."""
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: uv sync --group oracles")
     net = np.array([[(x, y, x) for y in (0, 1)] for x in (0, 1, 5, 6)], dtype=float)
     torn = dx.BSplinePatch(net, 2, 2, [0, 0, 1, 1, 2, 2])
     left, right = export.read(export.write(tmp_path / "torn.stp", torn))
