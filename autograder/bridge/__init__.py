@@ -42,6 +42,7 @@ TEMPLATES = Path(__file__).with_name("templates")
 def configure(c: Any) -> None:
     """Set what an nbgrader course needs to be graded by Directrix; everything else in ``c`` stays as the course has it."""
     c.GenerateAssignment.preprocessors = list(GENERATE)
+    c.Autograde.exporter_class = "autograder.bridge.submitted.Submitted"
     c.Autograde.sanitize_preprocessors = list(SANITIZE)
     c.Autograde.autograde_preprocessors = list(AUTOGRADE)
     c.GenerateFeedback.exporter_class = "autograder.bridge.pages.Feedback"

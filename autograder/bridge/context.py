@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import datetime
+import shutil
 import weakref
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,7 +19,7 @@ from autograder.notebook.rebuild import Rebuilt, rebuild
 from autograder.notebook.run import Ran, run
 from autograder.notebook.secret import hidden_seed
 from autograder.notebook.session import OpenSession, opened
-from autograder.notebook.submission import digest, parse, read_file
+from autograder.notebook.submission import beside, digest, harmless, parse, read_file, read_folder
 from autograder.notebook.timestamps import FILE, handed_in
 
 
@@ -104,22 +105,22 @@ class Context:
         return {name: found for name in names if (found := self.course.exercise(name)) is not None}
 
     def _files(self) -> dict[str, bytes]:
-        bounds = self.course.bounds
-        found = {}
-        for path in sorted(self.autograded.rglob("*")):
-            if path.is_file() and not path.is_symlink() and path.suffix != ".ipynb":
-                found[path.relative_to(self.autograded).as_posix()] = read_file(path, bounds.file)
-        return found
+        return read_folder(self.autograded, ignore=self.course.ignore, bounds=self.course.bounds).others
 
     def keep(self, files: Mapping[str, bytes]) -> None:
         """Write what the learner's code wrote into ``autograded/``, never over the instructor's files."""
         instructors = self.course.instructor_files(self.assignment)
-        for name, data in files.items():
-            if name not in instructors:
-                path = self.autograded / name
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.unlink(missing_ok=True)
-                path.write_bytes(data)
+        kept = {name: data for name, data in files.items() if harmless(name) and name not in instructors}
+        for name, data in beside(kept, instructors).items():
+            path = self.autograded / name
+            if path.is_dir():  # the notebook made a file where a folder was
+                shutil.rmtree(path)
+            for folder in path.relative_to(self.autograded).parents:  # or a folder where a file was
+                if (self.autograded / folder).is_file():
+                    (self.autograded / folder).unlink()
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.unlink(missing_ok=True)
+            path.write_bytes(data)
 
 
 _sandboxes: weakref.WeakKeyDictionary[Any, OpenSession] = weakref.WeakKeyDictionary()

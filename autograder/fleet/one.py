@@ -8,7 +8,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import PurePosixPath
 from typing import Any
 
 from autograder.course import Course
@@ -24,8 +23,8 @@ from autograder.notebook.run import Ran, run
 from autograder.notebook.score import annotate, marks, unanswered
 from autograder.notebook.secret import hidden_seed
 from autograder.notebook.session import OpenSession
-from autograder.notebook.submission import Submission, digest, parse
-from autograder.notebook.timestamps import FILE, handed_in
+from autograder.notebook.submission import Submission, beside, digest, harmless, parse
+from autograder.notebook.timestamps import handed_in
 from autograder.notebook.written import dumps
 
 
@@ -155,23 +154,6 @@ class _Work:
             }  # fmt: skip
             verdict = how.verdict if how is not None else None
             self.cells.append(CellReport(**fields) if verdict is None else CellReport.of_verdict(verdict, **fields))
-
-
-def beside(files: Mapping[str, bytes], first: Mapping[str, bytes]) -> dict[str, bytes]:
-    """The files that can lie in one folder with the ``first`` ones: none is a folder there, none lies in a file there."""
-    folders = {str(parent) for path in first for parent in PurePosixPath(path).parents}
-    return {
-        path: data
-        for path, data in files.items()
-        if path not in folders and not any(str(parent) in first for parent in PurePosixPath(path).parents)
-    }
-
-
-def harmless(path: str) -> bool:
-    """Whether a path from the sandbox may be written below ``autograded/``: relative, no notebook, not the timestamp."""
-    parts = PurePosixPath(path).parts
-    plain = bool(parts) and not path.startswith("/") and ".." not in parts and path.isprintable() and "\\" not in path
-    return plain and path != FILE and not path.endswith(".ipynb")
 
 
 def _kind(cell: MasterCell) -> Any:

@@ -12,12 +12,13 @@ import hashlib
 import json
 import os
 import stat
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from autograder.errors import SubmissionError
+from autograder.notebook.timestamps import FILE
 from autograder.sandbox.session import plain_name
 
 IGNORE = (".ipynb_checkpoints", "*.pyc", "__pycache__", "feedback")  # nbgrader's own default
@@ -181,6 +182,23 @@ def _regular(known: os.stat_result) -> None:
 
 def _shown(path: str) -> str:
     return path if path.isprintable() else ascii(path)[1:-1]
+
+
+def beside(files: Mapping[str, bytes], first: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The files that can lie in one folder with the ``first`` ones: none is a folder there, none lies in a file there."""
+    folders = {str(parent) for path in first for parent in PurePosixPath(path).parents}
+    return {
+        path: data
+        for path, data in files.items()
+        if path not in folders and not any(str(parent) in first for parent in PurePosixPath(path).parents)
+    }
+
+
+def harmless(path: str) -> bool:
+    """Whether a path from the sandbox may be written below ``autograded/``: relative, no notebook, not the timestamp."""
+    parts = PurePosixPath(path).parts
+    plain = bool(parts) and not path.startswith("/") and ".." not in parts and path.isprintable() and "\\" not in path
+    return plain and path != FILE and not path.endswith(".ipynb")
 
 
 def parse(data: bytes) -> dict[str, Any]:

@@ -107,6 +107,50 @@ def test_feedback_is_the_same_page_and_tells_no_secrets(both):
     assert {page: page.stat().st_mtime_ns for page in feedback.write(ours.course(), "ps1")} == again
 
 
+def test_what_would_hold_the_class_or_fill_the_disk_is_named_and_the_others_are_graded(ordinary, bridge_line):
+    """nbgrader alone waits for ever at the FIFO, and copies zeros until the disk is full."""
+    ordinary.configure(bridge_line)
+    os.mkfifo(ordinary.hand_in("fifo", {"two": ADD}) / "one.ipynb")
+    (ordinary.hand_in("zero", {"one": RIGHT, "two": ADD}) / "data.bin").symlink_to("/dev/zero")
+    os.mkfifo(ordinary.hand_in("when", {"one": RIGHT, "two": ADD}) / "timestamp.txt")
+    (ordinary.hand_in("linked", {"two": ADD}) / "one.ipynb").symlink_to(ordinary.folder / "source/ps1/one.ipynb")
+    ordinary.hand_in("zoe", {"one": RIGHT, "two": ADD})
+    done = nbgrader(ordinary.folder, "autograde", "ps1")
+    assert done.returncode == 1
+    for student in ("fifo", "zero", "when", "linked"):
+        assert f"{student}/ps1" in done.stderr or f"'{student}'" in done.stderr
+        assert not (ordinary.folder / "autograded" / student / "ps1").exists()
+    marked = dict(ordinary.sql(MARKED))
+    assert marked == {"zoe": 2.0}
+
+
+MARKED = """select s.student_id, max(x.auto_score) from grade x join submitted_notebook sn on x.notebook_id = sn.id
+    join submitted_assignment s on sn.assignment_id = s.id join base_cell b on x.cell_id = b.id
+    where b.name = 'test_square' and x.auto_score is not null group by s.student_id"""
+
+
+def test_what_the_notebook_wrote_is_kept_as_ours_keeps_it(ordinary, bridge_line, tmp_path):
+    """No timestamp, no notebook; a file for a folder and a folder for a file; odd names hold nobody up."""
+    write = "import os, shutil; shutil.rmtree('mine'); open('mine', 'w').write('x'); os.remove('flat'); os.mkdir('flat')"
+    write += "; open('flat/a', 'w').write('y'); open('timestamp.txt', 'w').write('1999'); open('extra.ipynb', 'w').write('{}')"
+    ordinary.configure(bridge_line)
+    odd = {"flat": b"f", "Screenshot 10.00.00\u202fAM.png": b"p", "back\\slash": b"b"}
+    place = ordinary.hand_in("ada", {"one": {**RIGHT, "square": f"{RIGHT['square']}\n{write}"}, "two": ADD}, files=odd)
+    (place / "mine").mkdir()
+    (place / "mine" / "b.txt").write_bytes(b"b")
+    ordinary.course().secret()
+    theirs = ordinary.copy(tmp_path / "theirs")
+    done = nbgrader(theirs.folder, "autograde", "ps1")
+    assert done.returncode == 0, done.stderr
+    assert fleet.grade(ordinary.course(), "ps1").failures == ()
+    theirs_files = theirs.autograded()
+    assert theirs_files.pop("ada/ps1/back\\slash") == b"b"  # nbgrader copies it; ours leaves it out by name
+    mine = ordinary.autograded()
+    assert set(mine) == set(theirs_files)
+    assert (mine["ada/ps1/mine"], mine["ada/ps1/flat/a"]) == (b"x", b"y")
+    assert ordinary.tables() == theirs.tables()
+
+
 def test_without_execution_nothing_has_a_mark(ordinary, bridge_line):
     """nbgrader keeps the outputs that were handed in, and scores them."""
 
