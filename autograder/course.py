@@ -3,7 +3,7 @@
 Settings keep nbgrader's names and meanings; a setting may be given under the class that has it or under a class that it
 inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our own are under ``c.Directrix``:
 
-    c.Directrix.level = "A"                      # isolation to require: A, A-, B, C or D
+    c.Directrix.level = "A"                      # isolation to require; not set: A or A-
     c.Directrix.packages = ("numpy", "scipy")    # what learners may import, beyond what exercises allow; or "all"
 """
 
@@ -199,9 +199,10 @@ class Course:
         return int(self.get("LimitOutput", "max_lines", 1000)), int(self.get("LimitOutput", "max_traceback", 100))
 
     @property
-    def level(self) -> str:
-        """The isolation level that the course requires."""
-        return str(self.get("Directrix", "level", "A"))
+    def level(self) -> str | None:
+        """The isolation level that the course requires; None for A or A-, whichever the machine gives."""
+        level = self.get("Directrix", "level", None)
+        return None if level is None else str(level)
 
     @property
     def packages(self) -> Packages:

@@ -167,7 +167,8 @@ def _class(found: tuple[Part, ...]) -> Table:
 def _footer(graded: GradeReport) -> str:
     done = len(graded.graded)
     speed = f", {done / graded.seconds:.1f} a second" if done and graded.seconds > 0 else ""
-    return f"{done} graded in {graded.seconds:.1f} s{speed}; sandbox level {graded.level}; '?' waits for a person"
+    sandbox = f"; sandbox level {graded.level}" if graded.level else ""
+    return f"{done} graded in {graded.seconds:.1f} s{speed}{sandbox}; '?' waits for a person"
 
 
 def _plain(text: str) -> str:

@@ -78,7 +78,7 @@ def lab(
 def demo(
     directory: Annotated[Path, typer.Option("--dir", help="Where the demo course goes.")] = Path("directrix-demo"),
     assignment: Annotated[list[str] | None, typer.Option(help="Only these assignments; may be repeated.")] = None,
-    level: Annotated[str, typer.Option(help="Isolation level to require.")] = "A",
+    level: Annotated[str, typer.Option(help="Isolation level to require; empty: A or A-.")] = "",
     again: Annotated[bool, typer.Option("--again", help="Replace an earlier demo in that folder.")] = False,
     as_json: AsJson = False,
 ) -> None:
@@ -105,7 +105,7 @@ def demo(
         console.print(f"{made.name} {made.slug}: released, {len(members)} submissions", highlight=False)
     for made in assignments:
         console.rule(f"grading {made.name} in the sandbox")
-        graded = grade_with_progress(console, course, made.name, level=level)
+        graded = grade_with_progress(console, course, made.name, level=level or None)
         pages = feedback.write(course, made.name)
         console.print(report.table(graded))
         surprises = cohorts.surprises(made.name, graded)

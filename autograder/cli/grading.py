@@ -40,7 +40,7 @@ def grade(
     student: Annotated[list[str] | None, typer.Option(help="Only this student; may be repeated.")] = None,
     force: Annotated[bool, typer.Option(help="Grade again what is graded already.")] = False,
     workers: Annotated[int, typer.Option(help="Submissions at a time; 0 means one for each processor.")] = 0,
-    level: Annotated[str, typer.Option(help="Isolation level to require; empty: as the course says, else A.")] = "",
+    level: Annotated[str, typer.Option(help="Isolation level to require; empty: as the course says, else A or A-.")] = "",
     as_json: AsJson = False,
 ) -> None:
     """Grade a class: every submission in its own sandbox, marks into gradebook.db, a table at the end.

@@ -65,7 +65,7 @@ def grade(
     force : bool
         Grade again what is graded and unchanged.
     level : str, optional
-        Isolation level to require; default the course's, else "A".
+        Isolation level to require; default the course's, else A or A-, whichever the machine gives.
 
     Raises
     ------
@@ -96,8 +96,9 @@ def _chosen(course: Course, assignment: str, students: Iterable[str] | None) -> 
 class _Run:
     """One grading run over one assignment."""
 
-    def __init__(self, course: Course, book: Gradebook, assignment: str, level: str, progress: Progress | None) -> None:
-        self.course, self.book, self.level, self.progress = course, book, level, progress
+    def __init__(self, course: Course, book: Gradebook, assignment: str, level: str | None, progress: Progress | None) -> None:
+        self.course, self.book, self.required, self.progress = course, book, level, progress
+        self.level = level or ""  # of the sandbox, once one runs
         self.row = book.assignment(assignment)
         self.masters = course.masters(self.row)
         if not self.masters:
@@ -238,7 +239,8 @@ class _Run:
     def _plan(self) -> Iterator[Plan]:
         checked = [cell.exercise for master in self.masters.values() for cell in master.graded if cell.exercise]
         exercises = {name: found for name in checked if (found := self.course.exercise(name)) is not None}
-        with opened(exercises.values(), self.course.packages, self.level, self.course.timeout) as open_session:
+        with opened(exercises.values(), self.course.packages, self.required, self.course.timeout) as open_session:
+            self.level = open_session.level
             yield Plan(
                 self.course, self.row, self.masters, self.course.instructor_files(self.row.name), self.course.secret(),
                 exercises.get, open_session,

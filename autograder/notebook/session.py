@@ -7,6 +7,7 @@ import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, Literal
 
+from autograder.errors import IsolationError
 from autograder.exercise import Exercise
 from autograder.sandbox import Limits, Policy, Sandbox
 
@@ -35,11 +36,25 @@ def limits(timeout: float | None, *, exercises: bool) -> Limits:
     return own if timeout is None else dataclasses.replace(own, cell_cpu=timeout)
 
 
+@dataclasses.dataclass(frozen=True)
+class Opener:
+    """Opens sessions in one running sandbox; ``level`` is the isolation that it has."""
+
+    box: Sandbox
+    bounds: Limits
+    level: str
+
+    def __call__(self, files: Mapping[str, bytes]) -> Any:
+        """A session that finds these files."""
+        return self.box.open(files=files, limits=self.bounds, environment={"NBGRADER_EXECUTION": "autograde"})
+
+
 @contextlib.contextmanager
-def opened(exercises: Iterable[Exercise], packages: Packages, level: str, timeout: float | None) -> Iterator[OpenSession]:
+def opened(exercises: Iterable[Exercise], packages: Packages, level: str | None, timeout: float | None) -> Iterator[Opener]:
     """Start the sandbox of an assignment; yields what opens a session in it, given the files that the notebook finds.
 
-    Sessions may be opened from any thread.
+    ``level`` None requires A or, where a machine gives no namespaces to a notebook of its own, A-. Which one it is stands in
+    every report. Sessions may be opened from any thread.
 
     Raises
     ------
@@ -47,6 +62,18 @@ def opened(exercises: Iterable[Exercise], packages: Packages, level: str, timeou
         If this machine does not give the level.
     """
     posed = list(exercises)
-    bounds = limits(timeout, exercises=bool(posed))
-    with Sandbox(policy=needs(posed, packages), level=level) as box:
-        yield lambda files: box.open(files=files, limits=bounds, environment={"NBGRADER_EXECUTION": "autograde"})
+    bounds, policy = limits(timeout, exercises=bool(posed)), needs(posed, packages)
+    with _sandbox(policy, level) as box:
+        yield Opener(box, bounds, box.level)
+
+
+def _sandbox(policy: Policy, level: str | None) -> Sandbox:
+    if level is not None:
+        return Sandbox(policy=policy, level=level)
+    try:
+        return Sandbox(policy=policy, level="A")
+    except IsolationError as best:
+        try:
+            return Sandbox(policy=policy, level="A-")
+        except IsolationError:
+            raise best from None

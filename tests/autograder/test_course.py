@@ -17,7 +17,7 @@ def test_defaults_are_nbgraders(tmp_path):
     assert made.database == f"sqlite:///{tmp_path}/gradebook.db"
     assert made.path("submitted", "ada", "A1") == tmp_path / "submitted/ada/A1"
     assert made.path("source", ".", "A1") == tmp_path / "source/A1"
-    assert (made.id, made.level, made.packages, made.timeout, made.penalty()) == ("", "A", (), None, None)
+    assert (made.id, made.level, made.packages, made.timeout, made.penalty()) == ("", None, (), None, None)
     assert (made.permissions("Autograde"), made.permissions("GenerateFeedback")) == (0o444, 0o644)
     assert made.output_limits == (1000, 100)
     assert made.create_students
