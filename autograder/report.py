@@ -93,7 +93,7 @@ def table(graded: GradeReport) -> Group:
         shown += ["", _class(found)]
     for heading, lines in (("Could not be read", graded.broken), ("The grader's own failures", graded.faults)):
         if lines:
-            shown += ["", Text(heading, style="bold red"), *(Padding(Text(_plain(line)), (0, 0, 0, 2)) for line in lines)]
+            shown += ["", Text(heading, style="bold red"), *(Padding(Text(plain(line)), (0, 0, 0, 2)) for line in lines)]
     shown.append(Text(_footer(graded), style="dim"))
     return Group(*shown)
 
@@ -111,7 +111,7 @@ def _students(graded: GradeReport) -> Table:
     for student in graded.students:
         cells = {(cell.notebook, cell.name): cell for cell in student.cells}
         made.add_row(
-            Text(_plain(student.student)),
+            Text(plain(student.student)),
             *(_points(cells.get(column)) for column in columns),
             f"{student.score - student.penalty:g} / {graded.available:g}",
             _remark(student),
@@ -127,7 +127,7 @@ def _columns(graded: GradeReport) -> list[tuple[str, str]]:
 def _legend(graded: GradeReport) -> Text:
     """Which cell each number at the head of the table means: numbers leave room for the marks on a narrow screen."""
     names = (name.removeprefix("check_") for _, name in _columns(graded))
-    return Text(_plain("   ".join(f"{number} {name}" for number, name in enumerate(names, 1))), style="dim")
+    return Text(plain("   ".join(f"{number} {name}" for number, name in enumerate(names, 1))), style="dim")
 
 
 def _points(cell: CellReport | None) -> Text:
@@ -171,6 +171,6 @@ def _footer(graded: GradeReport) -> str:
     return f"{done} graded in {graded.seconds:.1f} s{speed}{sandbox}; '?' waits for a person"
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """Names and messages that came from outside cannot steer the terminal."""
     return "".join(letter if letter.isprintable() else "�" for letter in text)

@@ -130,15 +130,16 @@ def demo(
 
 def grade_with_progress(console: Console, course: Any, assignment: str, **options: Any) -> Any:
     """Grade an assignment under a Rich progress bar."""
+    from rich.markup import escape
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-    from autograder import fleet
+    from autograder import fleet, report
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task(assignment, total=None)
 
         def tell(done: int, total: int, student: str) -> None:
-            progress.update(task, completed=done, total=total, description=f"{assignment} {student}")
+            progress.update(task, completed=done, total=total, description=escape(f"{assignment} {report.plain(student)}"))
 
         return fleet.grade(course, assignment, progress=tell, **options)

@@ -58,7 +58,7 @@ def grade(
     if as_json:
         print(json.dumps(graded.to_dict(), allow_nan=False))
     for failure in graded.failures:
-        print(f"directrix: {failure}", file=sys.stderr)
+        print(f"directrix: {report.plain(failure)}", file=sys.stderr)
     if graded.failures:
         raise typer.Exit(1)
 

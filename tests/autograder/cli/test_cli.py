@@ -1,6 +1,8 @@
 """The command line: help with an example for every verb, exit codes 0, 1 and 2, and no traceback for a user's error."""
 
+import io
 import json
+import os
 import subprocess
 import sys
 
@@ -53,6 +55,25 @@ def test_a_users_error_is_a_plain_line_and_an_exit_code(arguments, code, says, t
     assert result.returncode == code, said
     assert says in said
     assert "Traceback" not in said
+
+
+def test_a_folder_that_is_no_students_id_cannot_steer_the_terminal(surfaces):
+    """Its name comes from outside: no escape sequence, no line of its own, no markup, in the progress as at the end."""
+    from rich.console import Console
+
+    from autograder.cli.course import grade_with_progress
+
+    for student in ("esc\x1b]0;title\x07", "two\nlines", "[red]bo[b", os.fsdecode(b"sur\xffrogate")):
+        (surfaces.folder / "submitted" / student / "A1").mkdir(parents=True)
+    told = directrix("grade", "A1", "--course", surfaces.folder, cwd=surfaces.folder)
+    assert told.returncode == 1
+    assert "\x1b" not in told.stdout + told.stderr
+    assert [line for line in told.stderr.splitlines() if not line.startswith("directrix: ")] == []
+    shown = io.StringIO()
+    console = Console(file=shown, force_terminal=True, width=200)
+    grade_with_progress(console, surfaces.course(), "A1")
+    assert "\x1b]0" not in shown.getvalue()
+    assert "[red]bo[b" in shown.getvalue()
 
 
 def test_new_makes_a_course_and_refuses_to_touch_a_folder_that_is_not_empty(tmp_path):
