@@ -12,7 +12,6 @@ import datetime
 import hashlib
 import logging
 import os
-import re
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -27,12 +26,10 @@ from autograder.fleet.one import Outcome, Plan, grade_one
 from autograder.fleet.result import GradeReport, StudentReport
 from autograder.gradebook import Gradebook, NotebookMarks, Record, Standing
 from autograder.notebook.session import opened
-from autograder.notebook.submission import read_file, read_folder
+from autograder.notebook.submission import PLAIN_ID, read_file, read_folder
 from autograder.notebook.timestamps import FILE, handed_in
 
 log = logging.getLogger(__name__)
-# formgrader writes ids into its pages as they are
-PLAIN_ID = re.compile(r"[^\x00-\x1f\x7f<>&\"'`\\\ud800-\udfff]{1,128}")
 BATCH = 50
 BATCH_SECONDS = 2.0
 Progress = Callable[[int, int, str], None]

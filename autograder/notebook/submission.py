@@ -11,6 +11,7 @@ import fnmatch
 import hashlib
 import json
 import os
+import re
 import stat
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -23,6 +24,8 @@ from autograder.sandbox.session import plain_name
 
 IGNORE = (".ipynb_checkpoints", "*.pyc", "__pycache__", "feedback")  # nbgrader's own default
 MAX_DEPTH = 12
+# formgrader writes ids into its pages as they are
+PLAIN_ID = re.compile(r"[^\x00-\x1f\x7f<>&\"'`\\\ud800-\udfff]{1,128}")
 
 
 @dataclass(frozen=True)
