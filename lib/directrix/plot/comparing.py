@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from directrix.errors import ShapeError
 from directrix.plot import palette, traces
 from directrix.plot.sampling import Array, bounds, deviation, grid_normals, size_of
-from directrix.plot.scene import VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
+from directrix.plot.scene import CORNER, VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
 
 HEIGHT = 430
 ROUNDING = 1e-9  # relative deviations up to this are none
@@ -193,20 +193,41 @@ def _lines(points: Array, u: Array, w: Array, size: float, where: str) -> list[d
 
 
 def letters(points: Array, size: float, where: str, labels: tuple[str, str] = ("u", "w")) -> list[dict[str, Any]]:
-    """A dot where u = w = 0, and each letter a quarter along its edge from there."""
-    places = [(len(points) // 4, 0), (0, points.shape[1] // 4)]
-    ends = np.stack([points[place] for place in places])
-    if np.isfinite(points).any():  # moved off the surface, away from the middle, or it would hide them
-        low, high = bounds(points)
-        away = np.stack([grid_normals(points)[place] for place in places])
-        sign = np.sign(np.sum(away * (ends - (low + high) / 2), axis=1, keepdims=True))
-        ends = ends + 0.035 * size * away * np.where(sign == 0, 1.0, sign)
+    """A dot where u = w = 0, and each letter on its edge from there, where it is seen best."""
     start = points[:1, 0]
-    placed = [traces.words(ends, labels, (palette.U, palette.W), scene=where)] if np.isfinite(ends).all() else []
+    placed = []
+    if np.isfinite(points).any():
+        (i, _), (_, j) = places = _seen(points, size)
+        ends = np.stack([points[place] for place in places])
+        # Moved off the surface, away from the middle, and over the edge, or it would hide them.
+        low, high = bounds(points)
+        off = np.stack([grid_normals(points)[place] for place in places])
+        off = off * np.where(np.sum(off * (ends - (low + high) / 2), axis=1, keepdims=True) < 0, -1.0, 1.0)
+        over = ends - np.stack([points[i, 1], points[1, j]])
+        long = np.linalg.norm(over, axis=1, keepdims=True)
+        ends = ends + 0.03 * size * (off + over / np.where(long > 0, long, 1.0))
+        if np.isfinite(ends).all():
+            placed.append(traces.words(ends, labels, (palette.U, palette.W), scene=where))
     if np.isfinite(start).all():
         name = f"{labels[0]} = {labels[1]} = 0"
         placed.append(traces.marks(start, colour=palette.INK, size=4, symbol="circle", name=name, scene=where))
     return placed
+
+
+def _seen(points: Array, size: float) -> tuple[tuple[int, int], tuple[int, int]]:
+    """An eighth to a half along each edge from u = w = 0: near to the reader, and the two letters not on one another."""
+    low, high = bounds(points)
+    towards = np.array(CORNER) / np.linalg.norm(CORNER)
+
+    def merit(pair: tuple[tuple[int, int], tuple[int, int]]) -> float:
+        a, b = ((points[place] - (low + high) / 2) / size for place in pair)
+        apart = (a - b) - ((a - b) @ towards) * towards
+        worth = a @ towards + b @ towards + 4 * min(float(np.linalg.norm(apart)), 0.2)
+        return float(worth) if np.isfinite(worth) else -np.inf
+
+    n, m = points.shape[:2]
+    along_u, along_w = ([(count * part) // 8 for part in (2, 1, 3, 4)] for count in (n, m))
+    return max((((i, 0), (0, j)) for i in along_u for j in along_w), key=merit)
 
 
 def _marked(axes: list[Array], right: Array, left: Array, place: Array | None, first: str, second: str) -> list[dict[str, Any]]:

@@ -21,6 +21,7 @@ VIEWS: dict[str, dict[str, dict[str, float]]] = {
     "from +z": {"eye": {"x": 0, "y": 0, "z": 1.9}, "up": {"x": 0, "y": 1, "z": 0}},
 }
 CENTRE = {"x": 0, "y": 0, "z": -0.1}
+OPENING = 0.9 * float(np.tan(np.pi / 8))  # room for the numbers at the axes
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,19 @@ class Box:
         shape = extent * (np.sqrt(3) / np.linalg.norm(extent))
         return dict(zip("xyz", map(float, shape), strict=True))
 
+    def fitting(self, corner: tuple[float, float, float]) -> float:
+        """How much further away than usual the camera must stand for a tall box: up to its ends inside the picture."""
+        eye = np.array(corner)
+        half = np.array(list(self.aspect.values())) / 2
+        ends = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * half
+        ahead = -eye / np.linalg.norm(eye)
+        right = np.cross(ahead, (0, 0, 1)) / np.linalg.norm(np.cross(ahead, (0, 0, 1)))
+        up = np.cross(right, ahead)
+        seen = ends - np.array(list(CENTRE.values()))
+        # Each end is inside if |up| <= OPENING (distance + depth): plotly's camera looks through 45 degrees.
+        needed = np.abs(seen @ up) / OPENING - seen @ ahead
+        return max(1.0, float(needed.max() / np.linalg.norm(eye)))
+
     def corner(self, place: Array | None) -> tuple[float, float, float]:
         """The camera's corner from which a place is likely seen: the usual one unless the place lies on the far side."""
         x, y, z = CORNER
@@ -70,11 +84,12 @@ def scene(
     box: Box, domain: tuple[float, float] = (0.0, 1.0), *, distance: float = 1.0, corner: tuple[float, float, float] = CORNER
 ) -> dict[str, Any]:
     """The layout of one scene: labelled axes of one scale, equal ranges for equal boxes, no background."""
+    longest = max(np.subtract(box.high, box.low))
     axes = {
         f"{name}axis": {
             "title": {"text": name, "font": {"color": palette.INK, "size": 14}},
             "range": [box.low[i], box.high[i]],
-            "nticks": 5,
+            "nticks": max(2, round(5 * (box.high[i] - box.low[i]) / longest)),
             "tickfont": {"color": palette.INK, "size": 11},
             "gridcolor": palette.GRID,
             "zerolinecolor": palette.GRID,
@@ -87,7 +102,7 @@ def scene(
     return axes | {
         "aspectmode": "manual",
         "aspectratio": box.aspect,
-        "camera": camera("3-D", distance, corner),
+        "camera": camera("3-D", max(distance, box.fitting(corner)), corner),
         "domain": {"x": list(domain), "y": [0.0, 1.0]},
         "bgcolor": palette.CLEAR,
         "hovermode": "closest",

@@ -116,12 +116,10 @@ def curve(
 
 
 def net(points: Array, *, scene: str = "scene") -> list[Trace]:
-    """A control net (m, n, 3) or polygon (m, 3): thin lines and dots that tell their index."""
-    if points.ndim == 2:
-        curves, index = [points], [f"P[{i}]" for i in range(len(points))]
-    else:
-        curves = [*points, *points.transpose(1, 0, 2)]
-        index = [f"P[{i}, {j}]" for i in range(points.shape[0]) for j in range(points.shape[1])]
+    """A control net (m, n, 3), or (l, m, n, 3), or a polygon (m, 3): thin lines and dots that tell their index."""
+    axes = range(points.ndim - 1)
+    curves = [one for axis in axes for one in np.moveaxis(points, axis, -2).reshape(-1, points.shape[axis], 3)]
+    index = [f"P[{', '.join(map(str, at))}]" for at in np.ndindex(points.shape[:-1])]
     dots = marks(points.reshape(-1, 3), colour=palette.NET, size=3.5, symbol="circle", name="control points", scene=scene)
     dots |= {"text": index, "hoverinfo": "text", "hovertemplate": f"<b>%{{text}}</b><br>{POINT}<extra></extra>"}
     return [line(curves, colour=palette.NET, width=1.5, name="control net", scene=scene), dots]

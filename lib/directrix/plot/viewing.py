@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from directrix.errors import GeometryError, ShapeError
+from directrix.errors import GeometryError
 from directrix.plot import palette, traces
-from directrix.plot.comparing import LINES, comparison, edges_and_lines, letters
+from directrix.plot.beside import Knots, further_curves, further_surfaces, knot_lines, knots_of, measured, net_of
+from directrix.plot.comparing import FARTHER, LINES, comparison, edges_and_lines, letters
 from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, size_of
 from directrix.plot.scene import Box, coloured, layout, legend, scene, short, word
 from directrix.plot.square import parameter_square
@@ -29,13 +30,16 @@ def view(
     f: Callable[..., Any],
     *,
     against: Callable[..., Any] | None = None,
-    net: ArrayLike | None = None,
+    net: ArrayLike | bool | None = None,
     normals: bool = False,
-    knots: Sequence[ArrayLike] | None = None,
+    knots: Sequence[ArrayLike] | bool | None = None,
     colour: str | None = None,
     square: bool = False,
     mark: Sequence[float] | None = None,
     curves: Mapping[str, Callable[..., Any] | ArrayLike] | None = None,
+    also: Sequence[Callable[..., Any]] = (),
+    points: ArrayLike | None = None,
+    deviations: ArrayLike | None = None,
     title: str | None = None,
     names: tuple[str, str] = ("reference", "yours"),
     samples: int = SAMPLES,
@@ -56,12 +60,12 @@ def view(
         The reference of a comparison. Two scenes on the same axes, whose cameras turn together: ``against`` on the left, f
         coloured by its deviation on the right, divided by the size (the diagonal of the reference's box); the largest is
         marked in both. ``names`` says what they are called, (left, right).
-    net : (m, n, 3) or (m, 3), optional
-        A control net or polygon, drawn with its points P[i, j].
+    net : (m, n, 3) or (m, 3), or True, optional
+        A control net or polygon, drawn with its points P[i, j]; True: the form's own.
     normals : bool
         Needles along the unit normals: ``f.normal(u, w)`` where f has it, differences of the samples otherwise.
-    knots : (values of u, values of w), optional
-        Parameters in [0, 1] whose lines are drawn thick and light blue.
+    knots : (values of u, values of w), or True, optional
+        Parameters in [0, 1] whose lines are drawn thick and light blue; True: the form's own knots.
     colour : {"gaussian", "mean"}, optional
         Colours the surface by ``f.curvature(u, w)``.
     square : bool
@@ -70,6 +74,10 @@ def view(
         A place that is marked on the surface and in the square.
     curves : mapping of name to callable or points, optional
         Further curves in the same scene: c(t) for t in [0, 1], or points (n, 3).
+    also : surfaces, optional
+        Further surfaces in the same scene, such as the other sheet of a hyperboloid.
+    points : (n, 3), optional
+        Measured points; ``deviations`` (n,), where given, colours them: blue below, orange above.
     title : str, optional
     samples : int
         Samples each way, 2 to 121.
@@ -97,14 +105,20 @@ def view(
     elif count == 3:
         built = _solid(f, title, min(samples, 33))
     else:
-        built = _surface(f, title, samples, lines, colour=colour, normals=normals, knots=knots, square=square, mark=mark)
-    extra = _extra(net, curves, samples)
+        built = _surface(
+            f, title, samples, lines, colour=colour, normals=normals, square=square, mark=mark, knots=knots_of(f, knots)
+        )
+    polygon = net_of(f, net)
+    extra = further_surfaces(also, samples) + ([] if polygon is None else traces.net(polygon))
+    extra += further_curves(curves or {}, samples) + ([] if points is None else [measured(points, deviations)])
     if extra:
         built["data"] += extra
         if against is None:
-            points = [np.stack([trace[axis] for axis in "xyz"], axis=-1) for trace in extra]
-            box = Box.around(built.pop("points"), *points)
-            built["layout"]["scene"] = scene(box, tuple(built["layout"]["scene"]["domain"]["x"]))
+            drawn = [np.stack([trace[axis] for axis in "xyz"], axis=-1) for trace in extra]
+            box = Box.around(built.pop("points"), *drawn)
+            domain = tuple(built["layout"]["scene"]["domain"]["x"])
+            built["layout"]["scene"] = scene(box, domain, distance=FARTHER if domain[1] < 1 else 1.0)
+            built["layout"]["annotations"][0]["text"] += _said(polygon is not None, curves or {})
     built.pop("points", None)
     if height is not None:
         built["layout"]["height"] = height
@@ -113,7 +127,7 @@ def view(
 
 def _surface(
     f: Callable[..., Any], title: str | None, samples: int, lines: int, *,
-    colour: str | None, normals: bool, knots: Sequence[ArrayLike] | None, square: bool, mark: Sequence[float] | None,
+    colour: str | None, normals: bool, knots: Knots | None, square: bool, mark: Sequence[float] | None,
 ) -> dict[str, Any]:  # fmt: skip
     u = w = np.linspace(0.0, 1.0, samples)
     points = sample(f, u, w)
@@ -130,7 +144,7 @@ def _surface(
     built += [trace for trace in drawn if len(trace["x"])] + letters(points, size, "scene")
     notes = [legend()]
     if knots is not None:
-        built += _knot_lines(f, u, knots)
+        built += knot_lines(f, u, knots)
         notes.append(coloured("━ knots", palette.KNOT))
     if normals:
         built[0]["opacity"] = 0.8  # a normal may point to the side that is turned away
@@ -156,7 +170,7 @@ def _surface(
         built += more
         figure |= axes
     figure |= {
-        "scene": scene(Box.around(points), domain),
+        "scene": scene(Box.around(points), domain, distance=FARTHER if square else 1.0),
         "annotations": [word("&nbsp;&nbsp;&nbsp;".join(notes), 0.5, -0.03, yanchor="top")],
     }
     return {"data": built, "layout": figure, "points": points}
@@ -257,40 +271,12 @@ def _needles(f: Callable[..., Any], samples: int, points: Array, u: Array) -> di
     return traces.normals(points[np.ix_(picked, picked)], directions, 0.09 * size_of(points))
 
 
-def _knot_lines(f: Callable[..., Any], t: Array, knots: Sequence[ArrayLike]) -> list[dict[str, Any]]:
-    if len(knots) != 2:
-        raise ShapeError(f"knots must be two lists, values of u and values of w; got {len(knots)}")
-    at_u, at_w = (np.unique(np.asarray(values, dtype=float)) for values in knots)
-    for values in (at_u, at_w):
-        if not ((values >= 0) & (values <= 1)).all():
-            raise GeometryError("knots must be given as parameters in [0, 1]; stretch them onto it first")
-    across = [
-        *(list(sample(f, at_u, t)) if len(at_u) else []),
-        *(list(sample(f, t, at_w).transpose(1, 0, 2)) if len(at_w) else []),
-    ]
-    return [traces.line(across, colour=palette.KNOT, width=6, name="knots")] if across else []
-
-
-def _extra(net: ArrayLike | None, curves: Mapping[str, Any] | None, samples: int) -> list[dict[str, Any]]:
-    drawn: list[dict[str, Any]] = []
-    if net is not None:
-        points = np.asarray(net, dtype=float)
-        if points.ndim not in (2, 3) or points.shape[-1] != 3:
-            raise ShapeError(f"net must have shape (m, n, 3), or (m, 3) for a polygon; got {points.shape}", got=points.shape)
-        drawn += traces.net(points)
-    for name, one in (curves or {}).items():
-        if callable(one):
-            t = np.linspace(0.0, 1.0, samples)
-            drawn.append(traces.curve(sample(one, t), t, colour=palette.CURVE, name=short(name)))
-            continue
-        points = np.asarray(one, dtype=float).reshape(-1, 3)
-        if len(points) == 1:
-            drawn.append(
-                traces.marks(points, colour=palette.CURVE, size=5, symbol="circle", name=short(name), text=[short(name)])
-            )
-        else:
-            drawn.append(traces.curve(points, np.linspace(0, 1, len(points)), colour=palette.CURVE, name=short(name)))
-    return drawn
+def _said(net: bool, curves: Mapping[str, Any]) -> str:
+    """What the line below says of a net and of named curves."""
+    words = ([coloured("━ control net", palette.NET)] if net else []) + (
+        [coloured(f"━ {short(', '.join(curves))}", palette.CURVE)] if curves else []
+    )
+    return "".join(f"&nbsp;&nbsp;&nbsp;{one}" for one in words)
 
 
 def _place(mark: Sequence[float], count: int) -> Array:

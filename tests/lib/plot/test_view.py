@@ -98,8 +98,10 @@ def test_knot_lines_lie_at_the_knots(saddle):
     """Lines of constant u at the knots of u, of constant w at those of w."""
     knots = named(view(saddle, knots=([0.5], [0.25])), "knots")[0]
     pieces = np.split(np.stack([knots.x, knots.y]), np.flatnonzero(np.isnan(knots.x)), axis=1)
-    assert set(pieces[0][0]) == {0.5}
-    assert set(pieces[1][1][1:]) == {0.25}
+    lift = 0.01  # all lines are lifted off the surface, by less than a hundredth of its size
+    assert pieces[0][0] == pytest.approx(np.full(65, 0.5), abs=lift)
+    assert pieces[1][1][1:] == pytest.approx(np.full(65, 0.25), abs=lift)
+    assert np.ptp(pieces[0][1]) == pytest.approx(1, abs=lift)
     with pytest.raises(GeometryError, match=r"knots must be given as parameters in \[0, 1\]"):
         view(saddle, knots=([2.0], []))
 
@@ -169,3 +171,68 @@ def test_importing_plot_loads_neither_plotly_nor_a_surface():
         "or m.startswith(('directrix.surf', 'directrix.curves'))]; sys.exit(bool(loaded))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_the_forms_own_net_and_knots():
+    """net=True and knots=True ask the form; one without them says so, and given values still win."""
+    net = np.stack(np.meshgrid(np.arange(5.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1)[:, :, 0]
+    patch = dx.BSplinePatch(net, 3, 3)
+    figure = view(patch, net=True, knots=True)
+    dots = named(figure, "control points")[0]
+    assert sorted(zip(dots.x, dots.y, strict=True)) == [(x, y) for x in range(5) for y in range(4)]
+    assert list(dots.text[:2]) == ["P[0, 0]", "P[0, 1]"]
+    assert "control net" in figure.layout.annotations[0].text
+    lines = named(figure, "knots")[0]
+    assert np.isnan(lines.x).sum() == 2 * 3 - 1  # knots 1/3 and 2/3 of u, 1/2 of w, on both sides
+    with pytest.raises(GeometryError, match="Torus has none"):
+        view(dx.Torus(3, 1), net=True)
+    with pytest.raises(GeometryError, match="function has none"):
+        view(lambda u, w: patch(u, w), knots=True)
+
+
+def test_a_polygon_and_the_net_of_a_solid():
+    """A net has lines along each of its axes."""
+    corners = [[[(x, y, z) for z in (0, 1, 2)] for y in (0, 2)] for x in (0, 2)]
+    solid = named(view(dx.BezierHyperpatch(corners), net=True), "control net")[0]
+    assert np.isnan(solid.x).sum() == 2 * 3 + 2 * 3 + 2 * 2 - 1
+    curve = named(view(dx.BezierCurve([(0, 0, 0), (1, 2, 0), (2, 0, 0)]), net=True), "control net")[0]
+    assert list(curve.y) == [0, 2, 0]
+
+
+def test_further_surfaces_share_the_scene():
+    """Both sheets of a hyperboloid lie in one box, and a curve there is refused."""
+    sheets = dx.quadric_patches(dx.Quadric(-1, -1, 1, 0, 0, 0, 0, 0, 0, -1))
+    figure = view(sheets[0], also=sheets[1:])
+    assert sum(trace.type == "surface" for trace in figure.data) == 2
+    low, high = figure.layout.scene.zaxis.range
+    assert low < -1 < 1 < high
+    with pytest.raises(GeometryError, match="also takes further surfaces"):
+        view(sheets[0], also=[dx.Line((0, 0, 0), (1, 0, 0))])
+
+
+def test_measured_points_are_coloured_by_their_deviation():
+    """A symmetric bar, one value a point; other counts are refused."""
+    points = [(0, 0, 1), (1, 0, -2), (0, 1, 0.5)]
+    flat = dx.Plane((0, 0, 0), (1, 0, 0), (0, 1, 0))
+    dots = named(view(flat, points=points, deviations=[1, -2, 0.5]), "measured")[0]
+    assert list(dots.marker.color) == [1, -2, 0.5]
+    assert (dots.marker.cmin, dots.marker.cmax) == (-2, 2)
+    with pytest.raises(GeometryError, match=r"deviations must have shape \(3,\)"):
+        view(flat, points=points, deviations=[1, 2])
+    with pytest.raises(GeometryError, match=r"points must have shape \(n, 3\)"):
+        view(flat, points=[(1, 2)])
+
+
+def test_a_tall_figure_is_seen_whole():
+    """Every corner of its box lies within the camera's opening of 45 degrees, up and down."""
+    for form in (dx.Cylinder(1, 9), dx.Sphere(1), dx.Cylinder(9, 1)):
+        scene = view(form).layout.scene
+        eye = np.array([scene.camera.eye[axis] for axis in "xyz"])
+        centre = np.array([scene.camera.center[axis] for axis in "xyz"])
+        half = np.array([scene.aspectratio[axis] for axis in "xyz"]) / 2
+        ahead = -eye / np.linalg.norm(eye)
+        up = np.array([0, 0, 1]) - ahead[2] * ahead
+        up /= np.linalg.norm(up)
+        for corner in np.ndindex(2, 2, 2):
+            seen = (2 * np.array(corner) - 1) * half - centre - eye
+            assert abs(seen @ up) <= np.tan(np.pi / 8) * (seen @ ahead)

@@ -1,0 +1,126 @@
+"""What stands beside a surface in its picture: its net, its knot lines, further forms, measured points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from directrix.errors import GeometryError, ShapeError
+from directrix.plot import palette, traces
+from directrix.plot.comparing import LINES, edges_and_lines
+from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, size_of
+from directrix.plot.scene import short
+
+NETS = ("control_net", "control_points", "points")
+Knots = tuple[Array, Array]
+
+
+def net_of(f: Callable[..., Any], net: ArrayLike | bool | None) -> Array | None:
+    """The net to draw: the one given, or for True the form's own."""
+    if net is None or net is False:
+        return None
+    if net is True:
+        found = next((getattr(f, name) for name in NETS if hasattr(f, name)), None)
+        if found is None:
+            raise GeometryError(f"net=True draws the control points of the form; {type(f).__name__} has none. Give the points.")
+        net = found
+    points = np.asarray(net, dtype=float)
+    if points.ndim not in (2, 3, 4) or points.shape[-1] != 3:
+        raise ShapeError(f"net must have shape (m, n, 3), or (m, 3) for a polygon; got {points.shape}", got=points.shape)
+    return points
+
+
+def knots_of(f: Callable[..., Any], knots: Sequence[ArrayLike] | bool | None) -> Knots | None:
+    """Where knot lines are to be drawn, values of u and of w: those given, or for True the form's own between 0 and 1."""
+    if knots is None or knots is False:
+        return None
+    if knots is True:
+        breaks = getattr(f, "breaks", None)
+        if breaks is None:
+            raise GeometryError(
+                f"knots=True draws the knots of the form; {type(f).__name__} has none. Give values of u and of w."
+            )
+        knots = [values[(values > 0) & (values < 1)] for values in breaks()]
+    if len(knots) != 2:
+        raise ShapeError(f"knots must be two lists, values of u and values of w; got {len(knots)}")
+    at_u, at_w = (np.unique(np.asarray(values, dtype=float)) for values in knots)
+    for values in (at_u, at_w):
+        if not ((values >= 0) & (values <= 1)).all():
+            raise GeometryError("knots must be given as parameters in [0, 1]; stretch them onto it first")
+    return at_u, at_w
+
+
+def knot_lines(f: Callable[..., Any], t: Array, knots: Knots) -> list[dict[str, Any]]:
+    """The lines u = knot and w = knot, sampled at t, lifted off the surface on both sides like all lines on it."""
+    at_u, at_w = knots
+    u, w = np.union1d(t, at_u), np.union1d(t, at_w)
+    points = sample(f, u, w)
+    lift = 1.5 * traces.LIFT * size_of(points) * grid_normals(points)
+    across = [
+        line
+        for side in (points + lift, points - lift)
+        for line in (*side[np.searchsorted(u, at_u)], *side[:, np.searchsorted(w, at_w)].transpose(1, 0, 2))
+    ]
+    return [traces.line(across, colour=palette.KNOT, width=6, name="knots")] if across else []
+
+
+def further_surfaces(also: Sequence[Callable[..., Any]], samples: int) -> list[dict[str, Any]]:
+    """More surfaces in the same scene, with their parameter lines."""
+    drawn = []
+    t = np.linspace(0.0, 1.0, samples)
+    edges, inner = edges_and_lines(samples, LINES)
+    for f in also:
+        if count_parameters(f) != 2:
+            raise GeometryError("also takes further surfaces f(u, w); for curves and points there is curves={name: curve}")
+        points = sample(f, t, t)
+        size = size_of(points)
+        drawn.append(traces.surface(points, t, t, name=short(type(f).__name__)))
+        for at, width in ((inner, 1.5), (edges, 5)):
+            drawn += [traces.parameter_lines(points, size, along=along, at=at, width=width) for along in "uw"]
+    return drawn
+
+
+def further_curves(curves: Mapping[str, Any], samples: int) -> list[dict[str, Any]]:
+    """Curves c(t), polylines (n, 3) and single points, each under its name."""
+    drawn: list[dict[str, Any]] = []
+    t = np.linspace(0.0, 1.0, samples)
+    for name, one in curves.items():
+        if callable(one):
+            drawn.append(traces.curve(sample(one, t), t, colour=palette.CURVE, name=short(name)))
+            continue
+        points = np.asarray(one, dtype=float).reshape(-1, 3)
+        if len(points) == 1:
+            drawn.append(
+                traces.marks(points, colour=palette.CURVE, size=5, symbol="circle", name=short(name), text=[short(name)])
+            )
+        else:
+            drawn.append(traces.curve(points, np.linspace(0, 1, len(points)), colour=palette.CURVE, name=short(name)))
+    return drawn
+
+
+def measured(points: ArrayLike, deviations: ArrayLike | None) -> dict[str, Any]:
+    """Measured points (n, 3) as dots, coloured by their signed deviations (n,) where those are given."""
+    places = np.asarray(points, dtype=float)
+    if places.ndim != 2 or places.shape[-1] != 3:
+        raise ShapeError(f"points must have shape (n, 3); got {places.shape}", got=places.shape)
+    drawn = traces.marks(places, colour=palette.INK, size=3.5, symbol="circle", name="measured")
+    if deviations is None:
+        return drawn
+    off = np.asarray(deviations, dtype=float)
+    if off.shape != places.shape[:1]:
+        raise ShapeError(f"deviations must have shape ({len(places)},), one a point; got {off.shape}", got=off.shape)
+    top = float(np.abs(off[np.isfinite(off)]).max(initial=0.0)) or 1.0
+    drawn["marker"] |= {
+        "color": off.astype(np.float32), "cmin": -top, "cmax": top, "colorscale": palette.scale(palette.SIGNED),
+        "line": {"color": palette.INK, "width": 1}, "showscale": True,
+        "colorbar": {
+            "title": {"text": "off by", "font": {"size": 12}}, "thickness": 12, "len": 0.78, "x": 0.93, "outlinewidth": 0,
+            "tickfont": {"size": 11}, "nticks": 6, "tickformat": ".3~g",
+        },
+    }  # fmt: skip
+    drawn["customdata"] = off.astype(np.float32)[:, None]
+    drawn["hovertemplate"] = f"<b>off by %{{customdata[0]:.3~g}}</b><br>{traces.POINT}<extra></extra>"
+    return drawn
