@@ -281,3 +281,97 @@ def test_ruled_circles(r0, r1, h, phase):
     other = reference("ruled_circles")(1 - U, W, r0, r1, h, -phase)
     near(S * [1, -1, 1], other, scale)
     near(reference("ruled_circles")(U, W, r0, r1, h, 0.0), reference("frustum")(U, W, r0, r1, h), scale)
+
+
+def tables(m, n):
+    """Random tables (m, n, 3)."""
+    return st.integers(0, 10**6).map(lambda seed: np.random.default_rng(seed).uniform(-5, 5, (m, n, 3)))
+
+
+degrees = st.integers(0, 6)
+
+
+@given(degrees, degrees)
+def test_count_coefficients(du, dw):
+    """The size of a table with a row for every power of u and a column for every power of w."""
+    assert reference("count_coefficients")(du, dw) == np.zeros((du + 1, dw + 1, 3)).size
+
+
+@given(tables(3, 4))
+def test_algebraic_eval(a):
+    """S(0,0), S(1,1), the tangent and the twist in the corner, by exact differences of low powers."""
+    S = reference("algebraic_eval")
+    near(S(0.0, 0.0, a), a[0, 0], 10)
+    near(S(1.0, 1.0, a), a.sum(axis=(0, 1)), 100)
+    near(S(W, U, a.swapaxes(0, 1)), S(U, W, a), 100)
+    near(S(U, 0.0, a), sum(U[..., None] ** i * a[i, 0] for i in range(3)), 100)
+    two = a[:2, :2]
+    near(S(1.0, 1.0, two) - S(1.0, 0.0, two) - S(0.0, 1.0, two) + S(0.0, 0.0, two), a[1, 1], 100)
+
+
+@given(st.floats(0, 1))
+def test_hermite_basis(t):
+    F, mirrored = reference("hermite_basis")(t), reference("hermite_basis")(1 - t)
+    near(F[0] + F[1], 1.0)
+    near(F[3], -mirrored[2], 10)
+    assert F[3] <= 1e-16
+    assert F[2] >= -1e-16
+
+
+@given(tables(4, 4))
+def test_hermite_patch(G):
+    """The corners, and the tangents and twists by differences of second order, which cubics leave an error of h²."""
+    S, h = reference("hermite_patch"), 1e-4
+    ends = np.array([0.0, 1.0])
+    near(S(ends[:, None], ends, G), G[:2, :2], 20)
+    for i, u, du in ((0, 0.0, h), (1, 1.0, -h)):
+        for j, w, dw in ((0, 0.0, h), (1, 1.0, -h)):
+            along_u = (-3 * S(u, w, G) + 4 * S(u + du, w, G) - S(u + 2 * du, w, G)) / (2 * du)
+            along_w = (-3 * S(u, w, G) + 4 * S(u, w + dw, G) - S(u, w + 2 * dw, G)) / (2 * dw)
+            twist = (S(u, w, G) - S(u + du, w, G) - S(u, w + dw, G) + S(u + du, w + dw, G)) / (du * dw)
+            np.testing.assert_allclose(along_u, G[2 + i, j], atol=1e-4)
+            np.testing.assert_allclose(along_w, G[i, 2 + j], atol=1e-4)
+            np.testing.assert_allclose(twist, G[2 + i, 2 + j], atol=0.2)
+
+
+@given(tables(4, 4))
+def test_four_equal_twists_cannot_be_seen_in_the_middle(G):
+    equal, none = G.copy(), G.copy()
+    equal[2:, 2:], none[2:, 2:] = G[3, 3], 0.0
+    S = reference("hermite_patch")
+    near(S(0.5, 0.5, equal), S(0.5, 0.5, none), 20)
+    assert np.abs(S(0.25, 0.75, equal) - S(0.25, 0.75, none)).max() > 0.005 * np.abs(G[3, 3]).max()
+
+
+@given(tables(4, 4))
+def test_hermite_to_algebraic(G):
+    a = reference("hermite_to_algebraic")(G)
+    near(reference("algebraic_eval")(U, W, a), reference("hermite_patch")(U, W, G), 1000)
+    near(a[:2, :2], [[G[0, 0], G[0, 2]], [G[2, 0], G[2, 2]]], 20)
+    near(a.sum(axis=(0, 1)), G[1, 1], 1000)
+
+
+@given(tables(4, 4), st.booleans())
+def test_patch_normal(G, collapsed):
+    """Of length 1, or 0 where the edge has collapsed; across both tangents; turned round when u and w are exchanged."""
+    if collapsed:
+        G[:, 0] = 0.0
+    n = reference("patch_normal")(U, W, G)
+    length = np.linalg.norm(n, axis=-1)
+    near(length[:, 0], 0.0 if collapsed else 1.0, 10)
+    near(length[:, 1:], 1.0, 10)
+    near(reference("patch_normal")(W, U, G.swapaxes(0, 1)), -n, 1e5)
+    a = reference("hermite_to_algebraic")(G)
+    along_u = reference("algebraic_eval")(U, W, np.arange(1, 4)[:, None, None] * a[1:])
+    along_w = reference("algebraic_eval")(U, W, np.arange(1, 4)[:, None] * a[:, 1:])
+    near((n * along_u).sum(axis=-1), 0.0, 1e5)
+    near((n * along_w).sum(axis=-1), 0.0, 1e5)
+
+
+@given(tables(4, 3), st.floats(0.1, 0.45), st.floats(0.55, 0.9), st.floats(0.2, 0.8))
+def test_npoint_patch(P, one, two, middle):
+    """Through the points; and weights that add up to 1: points that are all moved move the patch with them."""
+    tu, tw = np.array([0, one, two, 1]), np.array([0, middle, 1])
+    S = reference("npoint_patch")
+    near(S(tu[:, None], tw, P, tu, tw), P, 100)
+    near(S(U, W, P + [1, 2, 3], tu, tw), S(U, W, P, tu, tw) + [1, 2, 3], 10_000)

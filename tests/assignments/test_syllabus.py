@@ -28,6 +28,13 @@ LISTED = {
     "bilinear_is_planar": "parallelogram absolute_tol always_planar",
     "ruled": "ends_exchanged no_one_minus one_reversed average different_points",
     "ruled_circles": "phase_degrees phase_ignored phase_negative phase_on_both swap_uw",
+    "count_coefficients": "scalar_only curves_added total_degree",
+    "algebraic_eval": "descending transposed total_degree diagonal",
+    "hermite_basis": "other_order f4_sign matrix_transposed powers_ascending bezier",
+    "hermite_patch": "twist_sign no_twist tangents_over_3 pu_pw_exchanged transposed matrix_transposed",
+    "hermite_to_algebraic": "right_not_transposed inverse one_side transposed",
+    "patch_normal": "reversed not_unit unit_then_cross twist corner_plane",
+    "npoint_patch": "parameters_ignored piecewise_bilinear tu_tw_exchanged denominator_sign transposed",
     "bernstein": "no_binomials order_for_degree power_typo nan_at_ends",
     "bezier_patch": "transposed no_binomials reversed_u net_piecewise elementwise",
     "iso_curve_net": "nearest_row points_not_controls other_direction rows_interpolated",
@@ -39,6 +46,15 @@ ASSIGNMENTS = {
     "A2": ["direction_cosines", "linear_sweep", "linear_sweep_points", "plane3", "triangle_mask", "triangle_patch"],
     "A3": ["revolve_y", "revolve_coord", "cone_from_line", "revolve_xy_axis", "revolve_axis"],
     "A4": ["translational_sweep", "vase", "bilinear", "bilinear_is_planar", "ruled", "ruled_circles"],
+    "A5": [
+        "count_coefficients",
+        "algebraic_eval",
+        "hermite_basis",
+        "hermite_patch",
+        "hermite_to_algebraic",
+        "patch_normal",
+        "npoint_patch",
+    ],
     "A6": ["bernstein", "bezier_patch", "iso_curve_net", "bezier_to_hermite", "hermite_to_bezier"],
 }
 
@@ -63,6 +79,26 @@ def top(t):
     return np.stack([3 * t - 1, np.cos(3 * t), 2 + t], axis=-1)
 
 
+A44 = [
+    [[0, -2, 0], [0, 3, 2], [-1, 7, -2], [1, 13, 0]],
+    [[2, 2, 2], [3, 5, 2], [1, 7, -2], [1, 12, -1]],
+    [[8, 1, 2], [6, 4, 2], [7, 10, 0], [8, 10, -2]],
+    [[9, 0, 2], [10, 3, 2], [10, 6, -1], [10, 14, -2]],
+]
+G44 = [
+    [[0, 0, 0], [1, 4, 1], [1, 5, 2], [-1, 3, 4]],
+    [[5, -1, 2], [6, 3, -1], [0, 6, -3], [2, 3, -2]],
+    [[6, 1, 3], [3, -2, 5], [2, 1, 6], [-3, 4, 2]],
+    [[4, 0, -4], [7, 2, 1], [5, -2, 3], [1, 3, -7]],
+]
+P54 = [
+    [[-1, 1, 2], [2, 5, -2], [1, 8, 0], [-1, 11, -1]],
+    [[4, 2, -2], [3, 4, 1], [2, 7, -1], [3, 14, 1]],
+    [[5, -2, -1], [5, 5, -1], [5, 8, 1], [6, 10, 0]],
+    [[8, 1, 2], [10, 5, 1], [8, 9, -2], [11, 14, -1]],
+    [[12, -1, 0], [11, 6, 1], [10, 7, 1], [11, 12, 1]],
+]
+NODES = (0, 0.2, 0.45, 0.7, 1), (0, 0.3, 0.75, 1)
 QUAD = ((0, 0, 0), (0, 3, 1), (4, 0, 0), (5, 4, 2))
 TRIANGLE = ((1, 2, 0), (4, 1, 2), (0, 5, 3))
 ORACLES = [
@@ -94,6 +130,17 @@ ORACLES = [
     ("ruled", (0.25, 0.5), (arc, top), (0.582106781, 0.897094434, 1.40625)),
     ("ruled_circles", (0.25, 0.5), (2, 1.5, 3, 1.30899694), (-0.72444437, 1.19411428, 1.5)),
     ("ruled_circles", (0, 0.5), (2, 1.5, 3, 1.30899694), (1.19411428, 0.72444437, 1.5)),
+    ("count_coefficients", (), (3, 3), 48),
+    ("count_coefficients", (), (3, 2), 36),
+    ("count_coefficients", (), (1, 1), 12),
+    ("count_coefficients", (), (4, 3), 60),
+    ("algebraic_eval", (0.5, 0.25), (A44,), (5.41796875, 2.19140625, 2.47265625)),
+    ("hermite_basis", (), ((0, 0.1, 0.2),), ((1, 0, 0, 0), (0.972, 0.028, 0.081, -0.009), (0.896, 0.104, 0.128, -0.032))),
+    ("hermite_patch", (0.5, 0.5), (G44,), (2.890625, 1.65625, 0.90625)),
+    ("hermite_patch", (0.25, 0.75), (G44,), (1.98901367, 2.69580078, 0.8515625)),
+    ("patch_normal", (0.5, 0.5), (np.array(G44, dtype=float),), (0.340315061, 0.610224273, 0.715410369)),
+    ("npoint_patch", (0.5, 0.5), (P54, *NODES), (5.62816372, 7.07279427, -0.109650931)),
+    ("npoint_patch", (0.45, 0.75), (P54, *NODES), (5, 8, 1)),
 ]
 
 
@@ -113,6 +160,12 @@ def test_every_listed_mistake_is_there(name, ids):
 def test_the_printed_numbers(name, place, arguments, expected):
     """Nine digits were printed, so half a unit of the ninth is allowed."""
     np.testing.assert_allclose(shipped().find(name).reference(*place, *arguments), expected, rtol=1e-8, atol=1e-8)
+
+
+def test_the_first_coefficients_of_the_hermite_patch():
+    """The first row of the table: a_00, a_01, a_02."""
+    first = shipped().find("hermite_to_algebraic").reference(G44)[0, :3]
+    np.testing.assert_allclose(first, [(0, 0, 0), (1, 5, 2), (2, -1, -5)], atol=1e-12)
 
 
 @pytest.mark.parametrize(("R", "r", "kind"), [(3, 1, "ring"), (1, 1, "horn"), (0.5, 1, "spindle"), (0, 1, "sphere")])
