@@ -3,9 +3,9 @@
     uv run python benchmarks/grading.py [--submissions 20] [--rounds 3] [--workers 0]
 
 Both grade the same well-behaved notebooks of A1, in turn, round after round, each time from an ungraded copy of one course.
-Under stock nbgrader `check(...)` refuses to judge (the learner's interpreter would hold the reference), so nbgrader only executes
-the notebooks here and does less work than we do: the ratio is a lower bound. Times depend on the machine; the ratio is what
-is meant to be read.
+Under stock nbgrader `check(...)` refuses to judge (the learner's interpreter would hold the reference), so nbgrader only
+executes the notebooks here and does less work than we do: the ratio is a lower bound. Times depend on the machine; the ratio is
+what is meant to be read.
 """
 
 from __future__ import annotations

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from autograder.judge import judge
 
 from autograder.catalogue import shipped
 from autograder.exercise import PUBLIC_SEED
+from autograder.judge import judge
 
 EXERCISES = list(shipped())
 MISTAKES = [(exercise, mistake) for exercise in EXERCISES for mistake in exercise.mistakes]
