@@ -7,10 +7,12 @@ nbgrader drops the stderr of a test cell that printed a thousand lines before it
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 TRUNCATED = "... Output truncated ..."
+MOST_SHOWN = 32_000_000
+TOO_MUCH = "... left out: this notebook shows more than can be kept ..."
 
 
 def ignore_stderr(cells: Iterable[dict[str, Any]], pattern: str) -> None:
@@ -37,6 +39,38 @@ def limit_outputs(cells: Iterable[dict[str, Any]], max_lines: int, max_traceback
                 for output in cell["outputs"]:
                     if output["output_type"] == "error" and len(output["traceback"]) > max_traceback:
                         output["traceback"] = _cut(output["traceback"], max_traceback)
+
+
+class Shown:
+    """What a notebook may show in all. Its cells each keep to a limit, but it may have thousands of them, and an update of a
+    display multiplies what it shows by the number of its places.
+    """
+
+    def __init__(self, most: int = MOST_SHOWN) -> None:
+        self.left = most
+
+    def cut(self, outputs: list[dict[str, Any]], *, graded: bool) -> list[dict[str, Any]]:
+        """The outputs while there is room; then a note, and of a graded cell what decides its mark."""
+        kept = []
+        for output in outputs:
+            self.left -= _size(output)
+            decides = output["output_type"] in ("error", "execute_result") or output.get("name") == "stderr"
+            if self.left >= 0 or (graded and decides):
+                kept.append(output)
+            if graded and decides and self.left < 0:
+                break
+        if len(kept) < len(outputs):
+            kept.append({"output_type": "display_data", "metadata": {}, "data": {"text/plain": TOO_MUCH}})
+        return kept
+
+
+def _size(value: Any) -> int:
+    """Characters of a JSON value, nearly."""
+    if isinstance(value, str):
+        return len(value)
+    if isinstance(value, Mapping):
+        return sum(len(str(key)) + _size(part) for key, part in value.items())
+    return sum(map(_size, value)) if isinstance(value, list | tuple) else 8
 
 
 def _limited(outputs: list[dict[str, Any]], most: int) -> list[dict[str, Any]]:

@@ -21,7 +21,7 @@ from autograder import card
 from autograder.errors import CallFailed, SandboxError
 from autograder.exercise import Exercise
 from autograder.judge import judge
-from autograder.notebook import safe
+from autograder.notebook import limit, safe
 from autograder.notebook.marks import CellRun
 from autograder.notebook.master import MasterCell
 from autograder.notebook.rebuild import Rebuilt
@@ -97,7 +97,8 @@ def run(
     with contextlib.ExitStack() as stack:
         runner = _Runner(open_session, stack, time.monotonic() + seconds)
         ran = Ran([])
-        learners: list[dict[str, Any]] = []
+        learners: list[tuple[dict[str, Any], bool]] = []
+        sent = limit.Shown()
         count = 0
         for cell, mine, known in zip(rebuilt.cells, rebuilt.masters, rebuilt.known, strict=True):
             if cell["cell_type"] != "code" or (mine is None and SKIP_TAG in known.tags):
@@ -109,13 +110,16 @@ def run(
                 result = _judge(runner, exercises(name), name, seed)
                 outputs = judged_outputs(result, mine, count)
             else:
+                graded = mine is not None and mine.grade
                 result, outputs = runner.run(cell["source"])
-                learners.append(cell)
+                outputs = sent.cut(outputs, graded=graded)
+                learners.append((cell, graded))
             cell["outputs"], cell["execution_count"] = outputs, count
             ran.cells.append(result)
         ran.files, ran.faults, ran.restarts = runner.files(), runner.faults, runner.restarts
-    for cell in learners:
-        cell["outputs"] = safe.outputs(cell["outputs"])
+    shown = limit.Shown()
+    for cell, graded in learners:  # once more: what was updated since may have grown
+        cell["outputs"] = safe.outputs(shown.cut(cell["outputs"], graded=graded))
         for output in cell["outputs"]:
             if output["output_type"] == "execute_result":
                 output["execution_count"] = cell["execution_count"]

@@ -256,6 +256,33 @@ def test_a_function_that_sleeps_in_every_call_does_not_keep_the_class_waiting():
     assert ran.faults == []
 
 
+def test_what_thousands_of_cells_show_is_bounded_and_no_mark_is_lost_for_it():
+    instructors = master(a_test("t", "print('x' * 10**6)\n1.5"), a_test("u", "print('x' * 10**6)\nassert False"))
+    loud = [cell("print('x' * 10**6)") for _ in range(60)]
+    built, _, given = graded(instructors, *loud, cell("", "t"), cell("", "u"))
+    assert sum(len(str(made["outputs"])) for made in built.cells) < 34_000_000
+    assert "left out" in str(built.cells[59]["outputs"])
+    assert (given["t"].points, given["u"].points) == (1.5, 0.0)
+
+
+def test_an_update_of_many_displays_is_bounded():
+    """One megabyte in two hundred places of each cell: the session changes the outputs that it gave before."""
+    places = []
+
+    class Updating(FakeSession):
+        def run_cell(self, source):
+            if source == "update":
+                for place in places:
+                    place.update(data={"text/plain": "x" * 10**6})
+                return FakeResult([])
+            new = [{"output_type": "display_data", "data": {"text/plain": "."}, "metadata": {}} for _ in range(200)]
+            places.extend(new)
+            return FakeResult(new)
+
+    built, _, _ = graded(master(), *[cell("show")] * 5, cell("update"), session=Updating)
+    assert sum(len(str(made["outputs"])) for made in built.cells) < 34_000_000
+
+
 def test_a_tag_of_the_submission_does_not_skip_a_test():
     """nbclient skips a tagged cell, and nbgrader then gives it full points."""
     instructors = master(a_test("t", "assert False"))
