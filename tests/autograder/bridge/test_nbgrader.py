@@ -114,11 +114,14 @@ def test_what_would_hold_the_class_or_fill_the_disk_is_named_and_the_others_are_
     (ordinary.hand_in("zero", {"one": RIGHT, "two": ADD}) / "data.bin").symlink_to("/dev/zero")
     os.mkfifo(ordinary.hand_in("when", {"one": RIGHT, "two": ADD}) / "timestamp.txt")
     (ordinary.hand_in("linked", {"two": ADD}) / "one.ipynb").symlink_to(ordinary.folder / "source/ps1/one.ipynb")
+    ordinary.hand_in("whole", {})
+    (ordinary.folder / "submitted/whole/ps1").rmdir()
+    (ordinary.folder / "submitted/whole/ps1").symlink_to(ordinary.folder / "source/ps1")
     for name in ("new\nline", "a<b>", "zoe"):
         ordinary.hand_in(name, {"one": RIGHT, "two": ADD})
     done = nbgrader(ordinary.folder, "autograde", "ps1")
     assert done.returncode == 1
-    for student in ("fifo", "zero", "when", "linked", "new\\nline", "a<b>"):
+    for student in ("fifo", "zero", "when", "linked", "whole", "new\\nline", "a<b>"):
         assert f"{student}/ps1" in done.stderr or f"'{student}'" in done.stderr
         assert not (ordinary.folder / "autograded" / student / "ps1").exists()
     marked = dict(ordinary.sql(MARKED))
