@@ -119,6 +119,11 @@ TEXT: dict[str, str] = {
         "u and w are exchanged and one of them runs backwards (your point at (w, 1-u) is the right one at (u, w))"
     ),
     "relabel.antiswap": "u and w are exchanged and both run backwards",
+    "relabel.flip_v": "v runs backwards",
+    "relabel.flip_uv": "u and v both run backwards",
+    "relabel.flip_uw": "u and w both run backwards",
+    "relabel.flip_vw": "v and w both run backwards",
+    "relabel.flip_uvw": "u, v and w all run backwards",
     "relabel.other": "its parameters are relabelled (your point at {formula} is the right one at ({names}))",
     "normal.flips": "The normal S_u × S_w points to the other side.",
     "normal.keeps": "The normal S_u × S_w keeps its side.",

@@ -40,6 +40,13 @@ LISTED = {
     "iso_curve_net": "nearest_row points_not_controls other_direction rows_interpolated",
     "bezier_to_hermite": "no_3 twist_3 twist_zero twist_all_plus transposed",
     "hermite_to_bezier": "no_third twist_third twist_forgotten far_end_plus twist_sign_mixed",
+    "coons": "no_correction averaged correction_added corners_exchanged blends_exchanged loop_orientation",
+    "ferguson": "coons_instead tangents_exchanged unit_tangents inward_at_far_end bilinear_only",
+    "coons_twists": "no_correction bilinear_only halved correction_added transposed",
+    "hyperpatch": "uw_exchanged trilinear no_binomials vw_exchanged",
+    "hyperpatch_faces": "mid_slices all_slices_u transposed near_far",
+    "flatness": "z_range vertical rms three_points not_centred",
+    "cylindricity": "axis_not_unit distance_to_point diameter half_zone squared",
 }
 ASSIGNMENTS = {
     "A1": ["cylinder", "frustum", "sphere", "torus", "torus_class"],
@@ -56,6 +63,7 @@ ASSIGNMENTS = {
         "npoint_patch",
     ],
     "A6": ["bernstein", "bezier_patch", "iso_curve_net", "bezier_to_hermite", "hermite_to_bezier"],
+    "A8": ["coons", "ferguson", "coons_twists", "hyperpatch", "hyperpatch_faces", "flatness", "cylindricity"],
 }
 
 
