@@ -1,5 +1,6 @@
 """A6, Bezier: Bernstein functions, patches of any degrees, the curves on them, and the way to the Hermite form and back.
 
+One file, and a long one: each exercise stands here whole, its reference, its data and its mistakes one below the other.
 `BP` (4 x 4, cubic in both directions) and `BP3` (4 x 3, cubic by quadratic) are the nets of the lecture data; both are generic:
 no row, column or corner can be mistaken for another. Lattices and flat nets hide most mistakes. Oracle numbers:
 tests/assignments.

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
 
 from autograder.catalogue import Assignment
 from autograder.demo import member as by_hand
 from autograder.demo.member import Edit, Kind, Member
 from autograder.demo.snippets import answers, cells, filled, mistaken
-from autograder.exercise import REFUSAL_CREDIT
+from autograder.exercise import REFUSAL_CREDIT, Exercise
 
 STYLES = {
     "vectorised": "Right: NumPy arrays, stacked along a new last axis.",
@@ -93,7 +96,7 @@ def partial(assignment: Assignment) -> Iterator[Draft]:
     """Not wrong, not done."""
     exercises = assignment.exercises
     first, second, third, *rest = exercises
-    exact = [id for id, exercise in exercises.items() if exercise.kind in ("mask", "label")]
+    exact = [id for id, exercise in exercises.items() if exercise.kind in ("mask", "label") or _whole_numbers(exercise)]
     near = {id: exercise.tier_credit("close") for id, exercise in exercises.items() if id not in exact}
     yield Draft(
         "float32", "Right to seven digits: computes in float32.", "partial", solved(assignment, "float32"),
@@ -123,9 +126,20 @@ def partial(assignment: Assignment) -> Iterator[Draft]:
     )  # fmt: skip
     (pole,) = cells(assignment.slug, "nan_at_pole")
     yield Draft(
-        "nan-at-the-pole", "Divides 0 by 0 where an edge shrinks to a point.", "partial", solved(assignment, "nan_at_pole"),
+        "nan-at-the-pole", "Divides 0 by 0 on an edge of the square.", "partial", solved(assignment, "nan_at_pole"),
         full(assignment, **{pole: 0.0}),
     )  # fmt: skip
+
+
+def _whole_numbers(exercise: Exercise) -> bool:
+    """Whether its answers are whole numbers, which float32 holds exactly."""
+    if exercise.parameters or exercise.judged_as is not None:
+        return False
+    answers = []
+    for drawn in exercise.draw():
+        with contextlib.suppress(ValueError):
+            answers.append(np.asarray(exercise.reference(*drawn.arguments.values())))
+    return all(answer.dtype.kind == "i" for answer in answers)
 
 
 def broken(assignment: Assignment) -> Iterator[Draft]:

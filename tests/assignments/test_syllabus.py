@@ -40,6 +40,11 @@ LISTED = {
     "iso_curve_net": "nearest_row points_not_controls other_direction rows_interpolated",
     "bezier_to_hermite": "no_3 twist_3 twist_zero twist_all_plus transposed",
     "hermite_to_bezier": "no_third twist_third twist_forgotten far_end_plus twist_sign_mixed",
+    "open_knots": "order_minus_one length_m uniform normalised repeated_inner",
+    "bspline_basis": "zero_at_end order_is_degree order_short double_closed denominator_shift",
+    "bspline_patch": "not_scaled orders_exchanged order_is_degree unclamped bezier transposed",
+    "nurbs_patch": "not_divided weights_ignored already_weighted weighted_twice weights_transposed",
+    "nurbs_quarter_cylinder": "weight_1 weight_half weight_root2 middle_on_arc",
     "coons": "no_correction averaged correction_added corners_exchanged blends_exchanged loop_orientation",
     "ferguson": "coons_instead tangents_exchanged unit_tangents inward_at_far_end bilinear_only",
     "coons_twists": "no_correction bilinear_only halved correction_added transposed",
@@ -63,6 +68,7 @@ ASSIGNMENTS = {
         "npoint_patch",
     ],
     "A6": ["bernstein", "bezier_patch", "iso_curve_net", "bezier_to_hermite", "hermite_to_bezier"],
+    "A7": ["open_knots", "bspline_basis", "bspline_patch", "nurbs_patch", "nurbs_quarter_cylinder"],
     "A8": ["coons", "ferguson", "coons_twists", "hyperpatch", "hyperpatch_faces", "flatness", "cylindricity"],
 }
 
