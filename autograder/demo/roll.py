@@ -139,7 +139,7 @@ def _whole_numbers(exercise: Exercise) -> bool:
     for drawn in exercise.draw():
         with contextlib.suppress(ValueError):
             answers.append(np.asarray(exercise.reference(*drawn.arguments.values())))
-    return all(answer.dtype.kind == "i" for answer in answers)
+    return bool(answers) and all(answer.dtype.kind == "i" for answer in answers)
 
 
 def broken(assignment: Assignment) -> Iterator[Draft]:
