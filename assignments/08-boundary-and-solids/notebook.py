@@ -361,8 +361,8 @@ check(coons_twists)
 # twist moves an edge. In the middle the four twists have the factors +1/64, -1/64, -1/64, +1/64, and for the twists of the
 # Coons patch this sum is zero.
 #
-# Anywhere else inside the difference shows, as at (1/4, 3/4); or she compares the mixed derivatives at the corners, which
-# are zero for Ferguson.
+# Elsewhere inside the difference shows, as at (1/4, 3/4); or she compares the mixed derivatives at the corners, which are zero for
+# Ferguson.
 #
 # She is right if the twists of the Coons patch are zero as well, that is if its edges are those of one curve carried along
 # another (a translational surface).
@@ -493,8 +493,8 @@ check(hyperpatch_faces)
 # The workshop delivers a plate, 80 mm by 50 mm. A measuring machine touches it at 35 points. *Flatness* is how far the highest
 # lies above the lowest, across the plane that fits best: this plate has **0.04 mm**.
 #
-# In the machine it does not lie level: its long side rises by $2$ on every $3$. About how many millimetres is it then from the
-# lowest $z$ to the highest?
+# In the machine it does not lie level: along its long side it rises by 2 mm on every 3, along its short side it falls by 1 mm on
+# every 3. How many millimetres is it then from the lowest $z$ to the highest?
 
 # %%
 range_of_z = None  # mm
