@@ -489,12 +489,12 @@ def _(u, w, P, h, k, l):
 def evaluated(answer):
     """The NURBS surface of orders (3, 2) on open knots that an answer (P, weights) stands for."""
     if not isinstance(answer, tuple | list) or len(answer) != 2:
-        raise ValueError("two things are wanted, the control net and the weights: return P, weights")
+        raise ValueError("two things are wanted, the control net and the weights: return P, weights.")
     P, weights = (np.asarray(part, dtype=float) for part in answer)
     if P.shape != (3, 2, 3):
-        raise ValueError(f"the control net must have shape (3, 2, 3), three points along u by two along w; yours has {P.shape}")
+        raise ValueError(f"the control net must have shape (3, 2, 3), three points along u by two along w; yours has {P.shape}.")
     if weights.shape != (3, 2):
-        raise ValueError(f"the weights must have shape (3, 2), one for each control point; yours have {weights.shape}")
+        raise ValueError(f"the weights must have shape (3, 2), one for each control point; yours have {weights.shape}.")
     return dx.NurbsPatch(P, weights, 3, 2)
 
 
