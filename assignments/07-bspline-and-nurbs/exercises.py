@@ -492,7 +492,9 @@ def evaluated(answer):
         raise ValueError("two things are wanted, the control net and the weights: return P, weights.")
     P, weights = (np.asarray(part, dtype=float) for part in answer)
     if P.shape != (3, 2, 3):
-        raise ValueError(f"the control net must have shape (3, 2, 3), three points along u by two along w; yours has {P.shape}.")
+        raise ValueError(
+            f"the control net must have shape (3, 2, 3), three points along u by two along w; yours has {P.shape}."
+        )
     if weights.shape != (3, 2):
         raise ValueError(f"the weights must have shape (3, 2), one for each control point; yours have {weights.shape}.")
     return dx.NurbsPatch(P, weights, 3, 2)
