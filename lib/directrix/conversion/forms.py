@@ -234,6 +234,8 @@ def to_algebraic(form: Form) -> AlgebraicPatch:
 def to_points(form: Form, tu: ArrayLike | None = None, tw: ArrayLike | None = None) -> PointCurve | PointPatch:
     """The point form of a polynomial form of one piece: as many points on it as its degrees ask, at chosen parameters.
 
+    A bicubic gives the sixteen-point form (Mortenson, Geometric Modeling, 3rd ed., section 8.4).
+
     Parameters
     ----------
     form : a curve or surface of the library

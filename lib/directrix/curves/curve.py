@@ -20,7 +20,22 @@ class Curve(Frozen):
     """A curve p(u) in space, u in [0, 1]. Forms derive from it and give ``_derivative``; everything else is here.
 
     A curve is called with a number or an array of any shape, and gives points of shape ``u.shape + (3,)``: a scalar gives
-    (3,), an empty array (0, 3). u within 1e-12 of [0, 1] is clamped; further out is a ``DomainError``.
+    (3,), an empty array (0, 3). u within 1e-12 of [0, 1] is clamped; further out is a ``DomainError``. Lengths are in the unit
+    of the points given. (do Carmo, Differential Geometry of Curves and Surfaces, sections 1-2 and 1-3.)
+
+    Raises
+    ------
+    DomainError
+        From every method that takes u, if it is outside [0, 1] by more than 1e-12, or NaN.
+    ShapeError
+        If u holds no real numbers.
+
+    Examples
+    --------
+    >>> from directrix.curves.line import Line
+    >>> line = Line((0, 0, 0), (4, 0, 2))
+    >>> line(0.5), line([[0.0], [1.0]]).shape
+    (array([2., 0., 1.]), (2, 1, 3))
     """
 
     def _derivative(self, u: Array, n: int) -> Array:

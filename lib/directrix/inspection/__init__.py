@@ -121,7 +121,8 @@ def sphericity(points: ArrayLike, method: str = "least squares") -> FormError:
     """Sphericity (roundness in space): the width of the zone between two concentric spheres that holds the points.
 
     d_i = |x_i - c| - r. ``least squares`` minimises Σ d²; ``algebraic`` solves the linear system |x|² = 2 c·x + k instead,
-    which agrees to second order in the error; ``minimum zone`` minimises max d - min d.
+    which agrees to second order in the error; ``minimum zone`` minimises max d - min d (A. B. Forbes, NPL
+    report DITC 140/89).
 
     Parameters
     ----------
@@ -228,7 +229,8 @@ def conicity(points: ArrayLike, method: str = "least squares") -> FormError:
 def toricity(points: ArrayLike, method: str = "least squares") -> FormError:
     """Toricity: the width of the zone between two tori of the same centre circle that holds the points.
 
-    d_i = hypot(ρ_i - R, h_i) - r, with ρ, h the cylindrical coordinates about the axis. Both radii are fitted.
+    d_i = hypot(ρ_i - R, h_i) - r, with ρ, h the cylindrical coordinates about the axis. Both radii are fitted (the lecture's
+    CMM part; orthogonal distances as for the other forms, A. B. Forbes, NPL report DITC 140/89).
 
     Parameters
     ----------

@@ -53,6 +53,13 @@ def compare(
     ------
     ShapeError
         If the arrays do not fit each other.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 1, 5)
+    >>> line = np.stack([t, 0 * t, 0 * t], axis=-1)
+    >>> sorted(compare([t], line, line + (0, 0, 0.5)))
+    ['data', 'layout']
     """
     built = comparison(parameters, expected, yours, worst=worst, size=size, names=names, title=title, same=same)
     plain: dict[str, Any] = encode(built)

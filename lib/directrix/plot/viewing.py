@@ -59,7 +59,7 @@ def view(
     against : callable, optional
         The reference of a comparison. Two scenes on the same axes, whose cameras turn together: ``against`` on the left, f
         coloured by its deviation on the right, divided by the size (the diagonal of the reference's box); the largest is
-        marked in both. ``names`` says what they are called, (left, right).
+        marked in both.
     net : (m, n, 3) or (m, 3), or True, optional
         A control net or polygon, drawn with its points P[i, j]; True: the form's own.
     normals : bool
@@ -77,8 +77,13 @@ def view(
     also : surfaces, optional
         Further surfaces in the same scene, such as the other sheet of a hyperboloid.
     points : (n, 3), optional
-        Measured points; ``deviations`` (n,), where given, colours them: blue below, orange above.
+        Measured points.
+    deviations : (n,), optional
+        Their signed deviations, which colour them: blue below, orange above.
     title : str, optional
+        A line above the picture.
+    names : (str, str)
+        What the two scenes of a comparison are called, left and right.
     samples : int
         Samples each way, 2 to 121.
     lines : int
@@ -94,6 +99,14 @@ def view(
     ------
     GeometryError
         Where f, or something beside it, cannot be drawn; the message says what to change.
+
+    Examples
+    --------
+    >>> def saddle(u, w):
+    ...     return np.stack(np.broadcast_arrays(u, w, u * w), axis=-1)
+    >>> figure = view(saddle, title="z = xy")
+    >>> figure.data[0].type, figure.layout.title.text
+    ('surface', 'z = xy')
     """
     if not 2 <= samples <= MOST:
         raise GeometryError(f"samples must be from 2 to {MOST}; got {samples}. More would only make the notebook heavy.")
@@ -118,7 +131,7 @@ def view(
             box = Box.around(built.pop("points"), *drawn)
             domain = tuple(built["layout"]["scene"]["domain"]["x"])
             built["layout"]["scene"] = scene(box, domain, distance=FARTHER if domain[1] < 1 else 1.0)
-            built["layout"]["annotations"][0]["text"] += _said(polygon is not None, curves or {})
+            built["layout"]["annotations"][0]["text"] += _said(polygon, curves or {})
     built.pop("points", None)
     if height is not None:
         built["layout"]["height"] = height
@@ -271,11 +284,13 @@ def _needles(f: Callable[..., Any], samples: int, points: Array, u: Array) -> di
     return traces.normals(points[np.ix_(picked, picked)], directions, 0.09 * size_of(points))
 
 
-def _said(net: bool, curves: Mapping[str, Any]) -> str:
+def _said(net: Array | None, curves: Mapping[str, Any]) -> str:
     """What the line below says of a net and of named curves."""
-    words = ([coloured("━ control net", palette.NET)] if net else []) + (
-        [coloured(f"━ {short(', '.join(curves))}", palette.CURVE)] if curves else []
-    )
+    words = []
+    if net is not None:
+        words.append(coloured("━ polygon" if net.ndim == 2 else "━ net", palette.NET))
+    if curves:
+        words.append(coloured(f"━ {short(', '.join(curves))}", palette.CURVE))
     return "".join(f"&nbsp;&nbsp;&nbsp;{one}" for one in words)
 
 

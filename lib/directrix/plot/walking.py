@@ -52,6 +52,13 @@ def walk(
         If the path does not give places (u, w).
     GeometryError
         If it leaves the unit square, or f cannot be drawn.
+
+    Examples
+    --------
+    >>> def saddle(u, w):
+    ...     return np.stack(np.broadcast_arrays(u, w, u * w), axis=-1)
+    >>> len(walk(saddle, [(0, 0), (1, 1)], steps=5).frames)
+    5
     """
     if not 2 <= steps <= MOST:
         raise GeometryError(f"steps must be from 2 to {MOST}; got {steps}")

@@ -152,7 +152,8 @@ class BSplineHyperpatch(SplineSolid):
 class NurbsHyperpatch(SplineSolid):
     """The rational B-spline solid S = Σ N N N h_ijk P_ijk / Σ N N N h_ijk of orders ku, kv, kw.
 
-    The points are Cartesian, not multiplied by their weights; all else as for `BSplineHyperpatch` and `NurbsPatch`.
+    The points are Cartesian, not multiplied by their weights; all else as for `BSplineHyperpatch` and `NurbsPatch`
+    (Piegl & Tiller, The NURBS Book, 2nd ed., section 4.4, with one more parameter).
 
     Parameters
     ----------

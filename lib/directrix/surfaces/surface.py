@@ -35,7 +35,24 @@ class Surface(Frozen):
 
     Called with numbers or arrays that broadcast against each other, it gives points of shape
     ``np.broadcast_shapes(u.shape, w.shape) + (3,)``, float64: scalars give (3,), empty arrays (0, 3). Parameters within 1e-12
-    of [0, 1] are clamped; further out is a ``DomainError``.
+    of [0, 1] are clamped; further out is a ``DomainError``. Lengths are in the unit of the points given. (do Carmo,
+    Differential Geometry of Curves and Surfaces, chapters 2 and 3.)
+
+    Raises
+    ------
+    DomainError
+        From every method that takes u and w, if one is outside [0, 1] by more than 1e-12, or NaN.
+    ShapeError
+        If u and w do not broadcast against each other, or hold no real numbers.
+
+    Examples
+    --------
+    >>> from directrix.surfaces.known import Cylinder
+    >>> tube = Cylinder(2, 5)
+    >>> tube(0.25, 0.4)
+    array([0., 2., 2.])
+    >>> tube([[0.0], [0.25]], [[0.0, 0.5, 1.0]]).shape
+    (2, 3, 3)
     """
 
     # What a form gives

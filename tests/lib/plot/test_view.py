@@ -181,7 +181,7 @@ def test_the_forms_own_net_and_knots():
     dots = named(figure, "control points")[0]
     assert sorted(zip(dots.x, dots.y, strict=True)) == [(x, y) for x in range(5) for y in range(4)]
     assert list(dots.text[:2]) == ["P[0, 0]", "P[0, 1]"]
-    assert "control net" in figure.layout.annotations[0].text
+    assert "━ net" in figure.layout.annotations[0].text
     lines = named(figure, "knots")[0]
     assert np.isnan(lines.x).sum() == 2 * 3 - 1  # knots 1/3 and 2/3 of u, 1/2 of w, on both sides
     with pytest.raises(GeometryError, match="Torus has none"):
