@@ -9,7 +9,6 @@ from __future__ import annotations
 import base64
 import functools
 import hashlib
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -26,8 +25,6 @@ from autograder.feedback.hide import Hidden, strip_ansi
 from autograder.feedback.markdown import FindImage, to_html
 from autograder.notebook.master import checked_name
 from autograder.notebook.safe import FIGURE, IMAGES, clean_html, figure, picture
-
-_SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -74,7 +71,7 @@ def render(notebook: Mapping[str, Any], sheet: Sheet, *, hidden: Hidden | None =
     marks = hidden or Hidden()
     cells = [_cell(marks.cell(_joined(cell)), sheet, image) for cell in notebook["cells"]]
     drawn = any(cell["figures"] for cell in cells)
-    head, policy = _scripts() if drawn else ("", _policy([]))
+    head, policy = _scripts() if drawn else ("", _policy())
     return _template().render(
         sheet=sheet, cells=cells, head=Markup(head), policy=policy, style=Markup(_style()), points=_points,
         listed=[cell for cell in cells if cell["scored"]],
@@ -172,11 +169,10 @@ def _points(value: float | None) -> str:
 @functools.cache
 def _scripts() -> tuple[str, str]:
     """The scripts of a page with figures, and the policy that allows exactly these."""
-    head = figures.head()
-    return head, _policy(_SCRIPT.findall(head))
+    return figures.head(), _policy(*figures.running_scripts())
 
 
-def _policy(scripts: list[str]) -> str:
+def _policy(*scripts: str) -> str:
     hashes = [f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in scripts]
     allowed = " ".join(hashes) or "'none'"
     return f"default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; font-src data:; script-src {allowed}"

@@ -7,7 +7,9 @@ Figures are drawn when they come near the window and taken away again when they 
 
 from __future__ import annotations
 
+import base64
 import functools
+import gzip
 import html
 import json
 from collections.abc import Mapping
@@ -17,13 +19,30 @@ from typing import Any
 LABEXTENSIONS = Path(__file__).with_name("labextensions")
 
 
+UNPACK = """
+(async () => {
+  const packed = Uint8Array.from(atob(document.getElementById("directrix-packed").textContent), c => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const script = document.createElement("script");
+  script.textContent = await new Response(stream).text();
+  document.head.append(script);
+})();
+"""
+
+
 def head(*, plotly_url: str | None = None) -> str:
-    """The scripts of the page, once, for its ``<head>``: plotly.js (4.8 MB, or a link to it) and figures.js."""
+    """The scripts of the page, once, for its ``<head>``: plotly.js and figures.js.
+
+    Without ``plotly_url`` both stand in the page itself, packed by gzip to 1.9 MB from 4.8; browsers since 2023 unpack them.
+    """
     if plotly_url is None:
-        plotly = f"<script>{_closed(_plotly_js())}</script>"
-    else:
-        plotly = f'<script src="{html.escape(plotly_url, quote=True)}"></script>'
-    return f"{plotly}\n<script>{_closed(figures_js())}</script>"
+        return f'<script type="application/gzip" id="directrix-packed">{_packed()}</script>\n<script>{UNPACK}</script>'
+    return f'<script src="{html.escape(plotly_url, quote=True)}"></script>\n<script>{_closed(figures_js())}</script>'
+
+
+def running_scripts() -> tuple[str, ...]:
+    """The exact texts of the scripts that run in a page with :func:`head`, for a Content-Security-Policy by hashes."""
+    return UNPACK, _both()
 
 
 def fragment(figure: Mapping[str, Any] | Any) -> str:
@@ -51,10 +70,15 @@ def figures_js() -> str:
 
 
 @functools.cache
-def _plotly_js() -> str:
+def _both() -> str:
     from plotly.offline import get_plotlyjs
 
-    return str(get_plotlyjs())
+    return f"{get_plotlyjs()}\n{figures_js()}"
+
+
+@functools.cache
+def _packed() -> str:
+    return base64.b64encode(gzip.compress(_both().encode(), mtime=0)).decode()
 
 
 def _closed(script: str) -> str:

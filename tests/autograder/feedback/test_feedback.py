@@ -197,7 +197,8 @@ def test_a_card_and_its_figure_are_on_the_page_and_json_cannot_leave_its_element
     html = page.read_text()
     assert "Partly right" in html
     assert html.count('<div class="directrix-figure"') >= 1
-    assert "plotly.js v" in html
+    assert html.count("directrix-packed") == 2  # the packed scripts and what unpacks them, once
+    assert html.split("<body>")[0].count("sha256-") == 2
     assert "cdn" not in html.split("<body>")[1]
     for block in html.split("<body>")[1].split('<script type="application/vnd.plotly.v1+json">')[1:]:
         json.loads(block.split("</script>")[0])
