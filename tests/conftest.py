@@ -10,6 +10,14 @@ from hypothesis import settings
 settings.register_profile("fixed", derandomize=True, deadline=None, max_examples=40, database=None)
 settings.load_profile("fixed")
 
+FLAGS = [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
 CHROMIUM = next((path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None)
 
 
@@ -19,6 +27,17 @@ def chromium():
     if CHROMIUM is None:
         pytest.skip("no Chromium found: install the package `chromium` to run the browser tests")
     return CHROMIUM
+
+
+@pytest.fixture(scope="module")
+def browser(chromium):
+    """A running Chromium. For one module: while Playwright runs, nothing else of the process may use asyncio."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+        yield running
+        running.close()
 
 
 @pytest.hookimpl(wrapper=True)

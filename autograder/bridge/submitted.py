@@ -36,7 +36,8 @@ class Submitted(NotebookExporter):
         student = re.fullmatch(layout, folder, re.DOTALL)
         if student is None or not PLAIN_ID.fullmatch(student["student_id"]):
             return "the name of its folder is no student's id"
-        if os.path.islink(folder):
+        above = Path(folder).parent
+        if os.path.islink(folder) or (above.name == student["student_id"] and above.is_symlink()):
             return "it is a link"
         endless = _endless(Path(folder))
         return f"{endless} lead to no file, and copying them might never end" if endless else ""

@@ -17,6 +17,7 @@ from rich.console import Console
 from autograder.cli.options import AsJson, CourseOption, console_for
 from autograder.errors import CourseError
 
+FIRST = ("A1", "A2", "A3")
 IMPATIENT = """
 c.Execute.timeout = 5  # seconds of computing for one cell: the sample class has loops that never end
 """
@@ -79,6 +80,7 @@ def demo(
     directory: Annotated[Path, typer.Option("--dir", help="Where the demo course goes.")] = Path("directrix-demo"),
     assignment: Annotated[list[str] | None, typer.Option(help="Only these assignments; may be repeated.")] = None,
     level: Annotated[str, typer.Option(help="Isolation level to require; empty: A or A-.")] = "",
+    every: Annotated[bool, typer.Option("--all", help="Every shipped assignment, not only the first three.")] = False,
     again: Annotated[bool, typer.Option("--again", help="Replace an earlier demo in that folder.")] = False,
     as_json: AsJson = False,
 ) -> None:
@@ -93,7 +95,8 @@ def demo(
     if again and directory.exists():
         authoring.remove_course(directory)
     console.rule("a course, its released notebooks, and a sample class")
-    assignments = authoring.new_course(directory, tuple(assignment or ()))
+    chosen = tuple(assignment or ()) or (() if every else FIRST)
+    assignments = authoring.new_course(directory, chosen)
     with (directory / "nbgrader_config.py").open("a") as config:
         config.write(IMPATIENT)
     course = fleet.Course(directory)

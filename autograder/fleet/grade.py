@@ -116,6 +116,8 @@ class _Run:
         for student, folder in submissions.items():
             if not PLAIN_ID.fullmatch(student):
                 self._settled(StudentReport(student, "broken", broken=("the name of its folder is no student's id",)))
+            elif folder.parent.name == student and folder.parent.is_symlink():
+                self._settled(StudentReport(student, "broken", broken=("the student's folder is a link to another folder",)))
             elif known is not None and student not in known:
                 self._settled(StudentReport(student, "failed", faults=("no such student in the gradebook",)))
             elif not force and (unchanged := self._unchanged(student, folder)) is not None:

@@ -137,6 +137,14 @@ def test_a_notebook_that_is_a_link_to_a_classmates_is_not_read(ordinary):
     assert graded.broken == ("bob: one.ipynb: it is a link, not a file",)
 
 
+def test_a_students_folder_that_is_a_link_to_a_classmates_is_not_read(ordinary):
+    ordinary.hand_in("ada", {"one": {}})
+    (ordinary.folder / "submitted" / "bob").symlink_to(ordinary.folder / "submitted" / "ada", target_is_directory=True)
+    graded = fleet.grade(ordinary.course(), "ps1")
+    assert graded.broken == ("bob: the student's folder is a link to another folder",)
+    assert graded.student("ada").status == "graded"
+
+
 def test_a_notebook_that_is_too_large_is_named_and_not_called_missing(ordinary):
     """Figures make notebooks large; a learner whose work is left out for that must not pass for one who handed in nothing."""
     from autograder.notebook.submission import Bounds

@@ -17,16 +17,6 @@ def document(*figures, gap=0):
     return f"<!doctype html><html><head><meta charset='utf-8'>{page.head()}</head><body style='margin:0'>{body}</body></html>"
 
 
-@pytest.fixture(scope="module")
-def browser(chromium):
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
-        yield running
-        running.close()
-
-
 class Opened:
     """Opens documents; any request to a network, and any error of a script, fails the test."""
 
