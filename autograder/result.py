@@ -10,7 +10,7 @@ Outcome = Literal["passed", "partial", "failed", "not run", "could not judge"]
 Tier = Literal[
     # gates: what stops a comparison before it starts
     "error", "timeout", "shape", "not finite", "not pointwise", "not repeatable",
-    # the ladder, from right to unrelated (SYLLABUS section C)
+    # the ladder, from right to unrelated
     "identical", "mistake", "relabelled", "other start", "close", "same set", "covered", "part", "more", "moved",
     "different",
 ]  # fmt: skip
@@ -23,9 +23,9 @@ PARTS = ("right", "wrong", "where", "look")
 class Case:
     """How one data set was answered.
 
-    ``deviation`` is the worst distance between the two answers relative to the size D of the reference (SYLLABUS A.13);
-    ``where`` the parameters of the worst place, ``yours`` and ``expected`` both values there, already written out.
-    All four are None for hidden data, of which only the tier is told.
+    ``deviation`` is the worst distance between the two answers relative to the size of the reference (the diagonal of its
+    bounding box); ``where`` the parameters of the worst place, ``yours`` and ``expected`` both values there, already written
+    out. All four are None for hidden data, of which only the tier is told.
     """
 
     data: str

@@ -1,4 +1,4 @@
-"""The gates of SYLLABUS section B: what an answer must be before it is worth comparing.
+"""The gates: what an answer must be before it is worth comparing.
 
 Shapes for numbers, vectors and open meshes; finite on the closed square; pointwise; repeatable. A function that handles some
 shapes of input but not all is judged by those that it handles.

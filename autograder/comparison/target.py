@@ -126,7 +126,7 @@ class Target:
 
     @cached_property
     def size(self) -> float:
-        """D: the diagonal of the bounding box of the reference on a 33 x 33 grid (SYLLABUS A.13); never 0."""
+        """D: the diagonal of the bounding box of the reference on a 33 x 33 grid; never 0."""
         if not self.is_map or self.exercise.kind == "mask":
             return 1.0
         axis = np.linspace(0.0, 1.0, SIZE_GRID[len(self.names)])
