@@ -67,7 +67,7 @@ def test_a_misspelt_definition_is_found(notebook, right):
     notebook.run(right.replace("cylinder", "cylnder"))
     assert "You have defined cylnder; the task wants def cylinder(u, w, r, h):" in notebook.run("check(cylinder)").cards[0]
     notebook.run(right)
-    assert "Is the name written as in the task? There is an exercise cylinder." in notebook.run("check(cylindr)").cards[0]
+    assert "Is the name written as in the task? There is an exercise cylinder" in notebook.run("check(cylindr)").cards[0]
 
 
 def test_a_call_inside_check_is_helped_as_well(notebook):

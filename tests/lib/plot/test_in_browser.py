@@ -123,8 +123,8 @@ def test_a_button_turns_both_without_our_script(opened, two):
     linking = "if (Array.isArray(meta.link) && meta.link.length > 1) link(plot, meta.link.map(String));"
     unlinked = page.figures_js().replace(linking, "")
     assert unlinked != page.figures_js()
-    plotly = get_plotlyjs().replace("</script", "<\\/script")
-    shown = opened(document(two).replace(page.head(), f"<script>{plotly}</script><script>{unlinked}</script>"))
+    scripts = [text.replace("</script", "<\\/script") for text in (get_plotlyjs(), unlinked)]
+    shown = opened(document(two).replace(page.head(), "".join(f"<script>{text}</script>" for text in scripts)))
     shown.locator(".updatemenu-button", has_text="from +z").click()
     shown.wait_for_timeout(600)
     left, right = eyes(shown)
