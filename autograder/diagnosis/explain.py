@@ -1,7 +1,7 @@
 """What a learner reads: what is right, what is wrong, where, and one thing to look at, from the findings.
 
 Only public data are spoken of with names, numbers and places; of hidden data no more than that there are some.
-A little over 400 lines: the four parts of one message are chosen here side by side, and split they would be read in four places.
+A little over 400 lines: the four parts of one message are chosen here side by side; split, they would be read in four places.
 """
 
 from __future__ import annotations
