@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import base64
 import binascii
+import copy
+import functools
 import html as _html
 import math
 import re
@@ -23,8 +25,8 @@ import numpy as np
 from directrix.plot import compare
 from directrix.plot.palette import CONFIG
 
-from autograder.messages import amount
-from autograder.result import Case, Outcome, Tier, Verdict
+from autograder.messages import amount, say
+from autograder.result import Case, Figure, Outcome, Tier, Verdict
 
 PLOTLY = "application/vnd.plotly.v1+json"
 # What the outcome is called, its sign, and the ground of its badge: white text has a contrast of at least 5 on each.
@@ -149,13 +151,44 @@ def figure(verdict: Verdict) -> dict[str, Any] | None:
     Arrays are typed arrays of float32 in base64. A right answer is drawn alone: one scene instead of two equal ones, since a
     browser keeps only so many.
     """
-    drawn = verdict.figure
-    if drawn is None:
+    if verdict.figure is None:
         return None
-    same = verdict.outcome == "passed" and verdict.tier == "identical" and drawn.yours is not None
-    yours = None if drawn.yours is None else _numbers(drawn.yours)
-    worst = None if same else drawn.worst
-    built = compare(drawn.parameters, _numbers(drawn.expected), yours, worst=worst, size=drawn.size, same=same)
+    same = verdict.outcome == "passed" and verdict.tier == "identical" and verdict.figure.yours is not None
+    if same and verdict.figure.yours is verdict.figure.expected:
+        return copy.deepcopy(_drawn_once(_Itself(verdict.figure)))
+    return _drawn(verdict.figure, same=same)
+
+
+@dataclass(frozen=True, eq=False)
+class _Itself:
+    """A figure as a key: equal to the very same object only."""
+
+    figure: Figure
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Itself) and other.figure is self.figure
+
+    def __hash__(self) -> int:
+        return id(self.figure)
+
+
+@functools.lru_cache(maxsize=128)
+def _drawn_once(key: _Itself) -> dict[str, Any]:
+    """What all who are right get to see, drawn once: the judge hands out one object for it."""
+    return _drawn(key.figure, same=True)
+
+
+def _drawn(drawn: Figure, *, same: bool) -> dict[str, Any]:
+    built = compare(
+        drawn.parameters,
+        _numbers(drawn.expected),
+        None if drawn.yours is None else _numbers(drawn.yours),
+        worst=None if same else drawn.worst,
+        size=drawn.size,
+        title=say("figure.layer", layer=drawn.layer) if drawn.layer else None,
+        same=same,
+        letters=drawn.names or None,
+    )
     return validated(built)
 
 

@@ -32,6 +32,7 @@ TEXT: dict[str, str] = {
     "hidden": "data that are not shown here",
     "amount.percent": "{number} % of its size",
     "amount.times": "{number} times its size",
+    "figure.layer": "The layer {layer} of the solid",
     "given.vector": "arrays of shape {shapes}",
     "given.mesh": "arrays of shape {shapes}",
     "given.scalar": "single numbers",

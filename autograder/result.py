@@ -46,7 +46,7 @@ class Figure:
 
     ``parameters`` holds the values along each axis (one list for a curve, two for a surface); ``expected`` and ``yours``
     are nested lists of points, ``yours`` None where the learner's function could not be sampled. ``worst`` is the
-    parameter place to mark.
+    parameter place to mark. ``names`` are the parameters that run; of a solid two do, at the ``layer`` "w = 0.5", say.
     """
 
     kind: Literal["curve", "surface"]
@@ -55,6 +55,8 @@ class Figure:
     yours: Any = None
     worst: tuple[float, ...] | None = None
     size: float = 1.0
+    names: tuple[str, ...] = ()
+    layer: str = ""
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,8 @@ class Verdict:
         figure = data["figure"]
         if figure is not None:
             axes = tuple(tuple(axis) for axis in figure["parameters"])
-            figure = Figure(**{**figure, "parameters": axes, "worst": _tuple(figure["worst"])})
+            names = tuple(figure.get("names", ()))
+            figure = Figure(**{**figure, "parameters": axes, "worst": _tuple(figure["worst"]), "names": names})
         parts = tuple((key, text) for key, text in data["parts"])
         symmetries = tuple(data["symmetries"])
         return cls(**{**data, "cases": cases, "figure": figure, "parts": parts, "symmetries": symmetries})

@@ -41,6 +41,7 @@ class Target:
         self._relabelled: dict[str, Array] = {}
         self._mistakes: dict[str, Answer] = {}
         self._mistakes_relabelled: dict[tuple[str, str], Array | None] = {}
+        self.pictures: dict[tuple[int, float], Any] = {}  # kept here by the room that draws
 
     @property
     def name(self) -> str:
@@ -61,7 +62,10 @@ class Target:
     @cached_property
     def expected(self) -> Answer:
         """The right answer: for a map Numbers (N, 3) at the samples, or Raised where it is right to raise ValueError."""
-        return self._at_samples(self.exercise.reference, "the reference")
+        if not self._has_size:
+            return self._at_samples(self.exercise.reference, "the reference")
+        found = self._on_samples_and_size_grid
+        return found if isinstance(found, Raised) else Numbers(found[: len(self.samples.points)])
 
     @property
     def raises(self) -> bool:
@@ -127,13 +131,20 @@ class Target:
     @cached_property
     def size(self) -> float:
         """D: the diagonal of the bounding box of the reference on a 33 x 33 grid; never 0."""
-        if not self.is_map or self.exercise.kind == "mask":
+        if not self._has_size or isinstance(values := self._on_samples_and_size_grid, Raised):
             return 1.0
-        axis = np.linspace(0.0, 1.0, SIZE_GRID[len(self.names)])
-        grid = np.stack(np.meshgrid(*[axis] * len(self.names), indexing="ij"), axis=-1).reshape(-1, len(self.names))
-        values = np.concatenate([self.values, self.at(grid)])
         diagonal = float(np.linalg.norm(values.max(axis=0) - values.min(axis=0)))
         return diagonal or float(np.abs(values).max()) or 1.0
+
+    @property
+    def _has_size(self) -> bool:
+        return self.is_map and self.exercise.kind != "mask"
+
+    @cached_property
+    def _on_samples_and_size_grid(self) -> Array | Raised:
+        """The right values at the samples, then on the size grid: one call, since most of its cost is the calling."""
+        points = np.concatenate([self.samples.points, _size_grid(len(self.names))])
+        return self._map(self.exercise.reference, points, "the reference")
 
     @cached_property
     def measured(self) -> Measured:
@@ -204,6 +215,12 @@ class Target:
 
     def _place(self, who: str) -> str:
         return f"{self.exercise.id}, data set {self.name!r}: {who}"
+
+
+@functools.cache
+def _size_grid(n: int) -> Array:
+    axis = np.linspace(0.0, 1.0, SIZE_GRID[n])
+    return read_only(np.stack(np.meshgrid(*[axis] * n, indexing="ij"), axis=-1).reshape(-1, n))
 
 
 def targets(exercise: Exercise, seed: int | str | bytes, *, hidden: bool = False) -> tuple[Target, ...]:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from directrix.errors import ShapeError
 from directrix.plot import palette, traces
-from directrix.plot.sampling import Array, bounds, deviation, grid_normals, size_of
+from directrix.plot.sampling import LETTERS, Array, bounds, deviation, grid_normals, size_of
 from directrix.plot.scene import CORNER, VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
 
 HEIGHT = 430
@@ -35,6 +35,7 @@ def compare(
     names: tuple[str, str] = ("reference", "yours"),
     title: str | None = None,
     same: bool = False,
+    letters: Sequence[str] | None = None,
 ) -> dict[str, Any]:
     """A comparison figure of sampled curves or surfaces, as plain JSON (``data`` and ``layout``).
 
@@ -48,6 +49,7 @@ def compare(
     names : what the two are called
     title : a line above
     same : True draws ``yours`` alone, since it is the reference
+    letters : what the parameters are called where that is not u, or u and w: a layer of a solid runs along u and v
 
     Raises
     ------
@@ -61,7 +63,9 @@ def compare(
     >>> sorted(compare([t], line, line + (0, 0, 0.5)))
     ['data', 'layout']
     """
-    built = comparison(parameters, expected, yours, worst=worst, size=size, names=names, title=title, same=same)
+    built = comparison(
+        parameters, expected, yours, worst=worst, size=size, names=names, title=title, same=same, letters=letters
+    )
     plain: dict[str, Any] = encode(built)
     return plain
 
@@ -76,19 +80,23 @@ def comparison(
     names: tuple[str, str] = ("reference", "yours"),
     title: str | None = None,
     same: bool = False,
+    letters: Sequence[str] | None = None,
 ) -> dict[str, Any]:
     """:func:`compare` with its arrays still arrays."""
     axes = [np.asarray(axis, dtype=float) for axis in parameters]
+    if len(axes) not in (1, 2):
+        raise ShapeError(f"a comparison takes the parameters of a curve or of a surface, 1 or 2 axes; got {len(axes)}")
+    called = tuple(letters) if letters is not None else LETTERS[len(axes)]
     right = _points("expected", expected, axes)
     if yours is None or same:
         shown, name = (right, names[0]) if yours is None else (_points("yours", yours, axes), names[1])
-        return _alone(axes, shown, name, title, same)
+        return _alone(axes, shown, name, title, same, called)
     left = _points("yours", yours, axes)
     off = deviation(right, left) / (size or size_of(right))
     place = _worst(axes, off, worst)
     left, far = _within_reach(right, left)
     draw = _two_curves if len(axes) == 1 else _two_scenes
-    built = draw(axes, right, left, off, place, names, title)
+    built = draw(axes, right, left, off, place, names, title, called)
     if far:
         built["layout"]["annotations"].append(word(far, sum(DOMAINS[1]) / 2 if len(axes) == 2 else 0.5, 0.93))
         built["layout"]["meta"]["alt"] += f" {far}."
@@ -96,7 +104,14 @@ def comparison(
 
 
 def _two_scenes(
-    axes: list[Array], right: Array, left: Array, off: Array, place: Array | None, names: tuple[str, str], title: str | None
+    axes: list[Array],
+    right: Array,
+    left: Array,
+    off: Array,
+    place: Array | None,
+    names: tuple[str, str],
+    title: str | None,
+    called: tuple[str, ...],
 ) -> dict[str, Any]:
     u, w = axes
     box = _box(right, left)
@@ -107,7 +122,7 @@ def _two_scenes(
         "xanchor": "left", "y": 0.5, "tickfont": {"size": 11}, "nticks": 6, "outlinewidth": 0, "tickformat": ".3~g",
     }  # fmt: skip
     data = [
-        traces.surface(right, u, w, scene="scene", name=names[0]),
+        traces.surface(right, u, w, scene="scene", name=names[0], letters=(called[0], called[1])),
         traces.surface(
             left,
             u,
@@ -118,19 +133,20 @@ def _two_scenes(
             says="off by (÷ size)",
             scene="scene2",
             name=names[1],
+            letters=(called[0], called[1]),
         ),
     ]
-    data += _lines(right, u, w, size_of(right), "scene") + _lines(left, u, w, size_of(right), "scene2")
-    data += _marked(axes, right, left, place, "scene", "scene2")
+    data += _lines(right, u, w, size_of(right), "scene", called) + _lines(left, u, w, size_of(right), "scene2", called)
+    data += _marked(axes, right, left, place, "scene", "scene2", called)
     notes = [
         word(f"<b>{short(names[0])}</b>", sum(DOMAINS[0]) / 2, 1.0, size=14),
         word(f"<b>{short(names[1])}</b>, coloured by its deviation", sum(DOMAINS[1]) / 2, 1.0, size=14),
-        word(legend(extra=coloured("◆ largest deviation", palette.MARK) if place is not None else ""), 0.99, -0.03,
+        word(legend(called, extra=coloured("◆ largest deviation", palette.MARK) if place is not None else ""), 0.99, -0.03,
              anchor="right", yanchor="top"),
     ]  # fmt: skip
     alt = (
         f"Two 3-D scenes on the same axes whose cameras turn together. Left: {names[0]}. Right: {names[1]}, coloured by its "
-        f"deviation. {_said(off, place)}"
+        f"deviation. {_said(off, place, called)}"
     )
     corner = box.corner(None if place is None else between(axes, right, place))
     figure = layout(height=HEIGHT, title=title, alt=alt, link=("scene", "scene2"))
@@ -145,34 +161,46 @@ def _two_scenes(
 
 
 def _two_curves(
-    axes: list[Array], right: Array, left: Array, off: Array, place: Array | None, names: tuple[str, str], title: str | None
+    axes: list[Array],
+    right: Array,
+    left: Array,
+    off: Array,
+    place: Array | None,
+    names: tuple[str, str],
+    title: str | None,
+    called: tuple[str, ...],
 ) -> dict[str, Any]:
     box = _box(right, left)
     data = [
         traces.curve(right, axes[0], colour=palette.REFERENCE, name=names[0], width=8),
         traces.curve(left, axes[0], colour=palette.YOURS, name=names[1], width=5, dash="dash"),
-        *_marked(axes, right, left, place, "scene", "scene"),
+        *_marked(axes, right, left, place, "scene", "scene", called),
     ]
     words = [
         coloured(f"━ {short(names[0])}", palette.REFERENCE),
         coloured(f"╍ {short(names[1])}", palette.YOURS),
         *([coloured("◆ largest deviation", palette.MARK)] if place is not None else []),
     ]
-    alt = f"One 3-D scene with two curves: {names[0]}, and {names[1]} dashed. {_said(off, place)}"
+    alt = f"One 3-D scene with two curves: {names[0]}, and {names[1]} dashed. {_said(off, place, called)}"
     figure = layout(height=HEIGHT, title=title, alt=alt)
     figure |= {"scene": scene(box), "annotations": [word("&nbsp;&nbsp;&nbsp;".join(words), 0.5, -0.03, yanchor="top")]}
     return {"data": data, "layout": figure}
 
 
-def _alone(axes: list[Array], points: Array, name: str, title: str | None, same: bool) -> dict[str, Any]:
+def _alone(
+    axes: list[Array], points: Array, name: str, title: str | None, same: bool, called: tuple[str, ...]
+) -> dict[str, Any]:
     alt = f"A 3-D scene: {name}" + (", which agrees with the reference everywhere." if same else ".")
     figure = layout(height=HEIGHT, title=title, alt=alt)
     words = [f"<b>{short(name)}</b>" + (" = the reference" if same else "")]
     if len(axes) == 1:
         data = [traces.curve(points, axes[0], colour=palette.U, name=name)]
     else:
-        data = [traces.surface(points, *axes, name=name), *_lines(points, axes[0], axes[1], size_of(points), "scene")]
-        words.append(legend())
+        data = [
+            traces.surface(points, *axes, name=name, letters=(called[0], called[1])),
+            *_lines(points, axes[0], axes[1], size_of(points), "scene", called),
+        ]
+        words.append(legend(called))
     figure |= {
         "scene": scene(Box.around(points)),
         "annotations": [word("&nbsp;&nbsp;&nbsp;".join(words), 0.5, -0.03, yanchor="top")],
@@ -187,7 +215,7 @@ def edges_and_lines(count: int, lines: int) -> tuple[list[int], list[int]]:
     return [0, count - 1], inner
 
 
-def _lines(points: Array, u: Array, w: Array, size: float, where: str) -> list[dict[str, Any]]:
+def _lines(points: Array, u: Array, w: Array, size: float, where: str, called: tuple[str, ...]) -> list[dict[str, Any]]:
     """Parameter lines inside, the edges thicker, and the letters that say which way u and w run."""
     rows, columns = edges_and_lines(len(u), LINES), edges_and_lines(len(w), LINES)
     drawn = [
@@ -196,7 +224,7 @@ def _lines(points: Array, u: Array, w: Array, size: float, where: str) -> list[d
         traces.parameter_lines(points, size, along="u", at=columns[0], width=3.5, scene=where),
         traces.parameter_lines(points, size, along="w", at=rows[0], width=3.5, scene=where),
     ]
-    return [trace for trace in drawn if np.isfinite(trace["x"]).any()] + letters(points, size, where)
+    return [trace for trace in drawn if np.isfinite(trace["x"]).any()] + letters(points, size, where, (called[0], called[1]))
 
 
 def letters(points: Array, size: float, where: str, labels: tuple[str, str] = ("u", "w")) -> list[dict[str, Any]]:
@@ -237,13 +265,15 @@ def _seen(points: Array, size: float) -> tuple[tuple[int, int], tuple[int, int]]
     return max((((i, 0), (0, j)) for i in along_u for j in along_w), key=merit)
 
 
-def _marked(axes: list[Array], right: Array, left: Array, place: Array | None, first: str, second: str) -> list[dict[str, Any]]:
+def _marked(
+    axes: list[Array], right: Array, left: Array, place: Array | None, first: str, second: str, called: tuple[str, ...]
+) -> list[dict[str, Any]]:
     """The worst place in both, and in yours a line to where it should be."""
     if place is None:
         return []
     there, here = between(axes, right, place), between(axes, left, place)
-    label = f"{'largest deviation' if first != second else 'here'}, {_at(place)}"
-    goal = f"should be here, {_at(place)}"
+    label = f"{'largest deviation' if first != second else 'here'}, {_at(place, called)}"
+    goal = f"should be here, {_at(place, called)}"
     drawn = [traces.marks(there, colour=palette.MARK, size=6, symbol="diamond", name=goal, scene=first)]
     if np.isfinite(here).all():
         drawn.append(traces.marks(here, colour=palette.MARK, size=6, symbol="diamond", name=label, scene=second))
@@ -316,21 +346,20 @@ def _views(scenes: tuple[str, ...], corner: tuple[float, float, float]) -> dict[
 def _points(name: str, given: ArrayLike, axes: list[Array]) -> Array:
     points = np.asarray(given, dtype=float)
     shape = (*(len(axis) for axis in axes), 3)
-    if len(axes) not in (1, 2) or points.shape != shape:
+    if points.shape != shape:
         raise ShapeError(
             f"{name} must have shape {shape}, one point for each of the parameters given; got {points.shape}", got=points.shape
         )
     return np.where(np.isfinite(points).all(axis=-1, keepdims=True), points, np.nan)
 
 
-def _at(place: Array) -> str:
-    letters = "u" if len(place) == 1 else "(u, w)"
+def _at(place: Array, called: tuple[str, ...]) -> str:
     numbers = ", ".join(f"{value:.3g}" for value in place)
-    return f"{letters} = {numbers}" if len(place) == 1 else f"{letters} = ({numbers})"
+    return f"{called[0]} = {numbers}" if len(place) == 1 else f"({', '.join(called)}) = ({numbers})"
 
 
-def _said(off: Array, place: Array | None) -> str:
+def _said(off: Array, place: Array | None, called: tuple[str, ...]) -> str:
     if place is None:
         return "They agree." if np.isfinite(off).all() else ""
     top = f"{np.nanmax(off):.3g} of its size" if np.isfinite(off).any() else "not finite"
-    return f"Largest deviation {top}, marked at {_at(place)}."
+    return f"Largest deviation {top}, marked at {_at(place, called)}."
