@@ -50,7 +50,8 @@ def on_knots(knots: Array, order: int, points: Array, values: Array) -> Array:
     knots : (m + k,) the old knots
     order : k = degree + 1
     points : (m, ...) old control points along axis 0
-    values : the new knots; on their domain, which lies in the old one, every old knot occurs at least as often as before
+    values : the new knots, none more than k times; on their domain, which lies in the old one, every old knot occurs at least
+        as often as before (k times if it was more)
 
     Returns
     -------
@@ -75,9 +76,10 @@ def raised(knots: Array, order: int, points: Array) -> tuple[Array, Array]:
     >>> raised(np.array([0.0, 0, 1, 1]), 2, np.array([[0.0], [4.0]]))[1].ravel().tolist()
     [0.0, 2.0, 4.0]
     """
-    inner = knots[(knots > knots[order - 1]) & (knots < knots[-order])]
     start, end = knots[order - 1], knots[-order]
-    values = np.sort(np.concatenate([[start] * (order + 1), inner, np.unique(inner), [end] * (order + 1)]))
+    distinct, counts = np.unique(knots[(knots > start) & (knots < end)], return_counts=True)
+    inner = np.repeat(distinct, np.minimum(counts, order) + 1)
+    values = np.concatenate([[start] * (order + 1), inner, [end] * (order + 1)])
     result = []
     for j, span in enumerate(_pieces(knots, order, values, order + 1)):
         arguments = values[j + 1 : j + order + 1]
@@ -87,7 +89,9 @@ def raised(knots: Array, order: int, points: Array) -> tuple[Array, Array]:
 
 
 def clamped(knots: Array, order: int, start: float, end: float, times: int = 0) -> Array:
-    """Knots for the part [start, end] of a spline: both ends repeated ``order`` times, each inner knot at least ``times``.
+    """Knots for the part [start, end] of a spline: both ends ``order`` times, each inner knot ``times`` to ``order`` times.
+
+    A constant, order 1 without a knot inside, gets one halfway: a net has two points at least.
 
     Examples
     --------
@@ -96,7 +100,9 @@ def clamped(knots: Array, order: int, start: float, end: float, times: int = 0) 
     """
     inner = knots[(knots > start) & (knots < end)]
     distinct, counts = np.unique(inner, return_counts=True)
-    inner = np.repeat(distinct, np.maximum(counts, times))
+    inner = np.repeat(distinct, np.clip(counts, times, order))
+    if order == 1 and not inner.size:
+        inner = np.array([(start + end) / 2])
     return np.concatenate([[start] * order, inner, [end] * order])
 
 

@@ -32,7 +32,7 @@ from directrix.surfaces.algebraic import AlgebraicPatch
 from directrix.surfaces.bezier import BezierPatch
 from directrix.surfaces.hermite import HermitePatch
 from directrix.surfaces.point import PointPatch
-from directrix.surfaces.spline import BSplinePatch, NurbsPatch
+from directrix.surfaces.spline import BSplinePatch, NurbsPatch, spline_part
 
 Form = Any  # a curve, a surface or a solid
 
@@ -297,8 +297,22 @@ def _solid_spline(solid: Solid) -> BSplineHyperpatch | NurbsHyperpatch:
         return BSplineHyperpatch(net, 4, 4, 4)
     if isinstance(solid, BezierHyperpatch):
         return BSplineHyperpatch(solid.control_net, *solid.control_net.shape[:3])
-    return solid
+    return _clamped_solid(solid)
+
+
+def _clamped_solid(solid: BSplineHyperpatch | NurbsHyperpatch) -> BSplineHyperpatch | NurbsHyperpatch:
+    """The same solid on clamped knots, axis by axis."""
+    if all(knots.clamped for knots in solid.knot_vectors):
+        return solid
+    net, vectors = solid._blended, []
+    for axis, knots in enumerate(solid.knot_vectors):
+        part, clamped = spline_part(knots, np.moveaxis(net, axis, 0), 0.0, 1.0)
+        net = np.moveaxis(part, 0, axis)
+        vectors.append(clamped.values)
+    if isinstance(solid, BSplineHyperpatch):
+        return BSplineHyperpatch(net, *solid.orders, *vectors)
+    return NurbsHyperpatch(net[..., :3] / net[..., 3:], net[..., 3], *solid.orders, *vectors)
 
 
 def _given_knots(vectors: tuple[KnotVector, ...]) -> list[Any]:
-    return ["periodic" if vector.wrap else vector.values for vector in vectors]
+    return [vector.values for vector in vectors]

@@ -13,7 +13,6 @@ from directrix.checks import Array
 from directrix.conversion.splines import (
     HERMITE_TO_BEZIER,
     SplineSurface,
-    is_clamped,
     pieces_of_turn,
     powers_to_bezier,
     spline_of,
@@ -108,14 +107,14 @@ def _(patch: Triangle) -> BSplinePatch:
 
 @spline_of.register
 def _(patch: BSplinePatch) -> BSplinePatch:
-    if is_clamped(patch.knot_vector_u) and is_clamped(patch.knot_vector_w):
+    if patch.knot_vector_u.clamped and patch.knot_vector_w.clamped:
         return patch
     return patch.patch(0.0, 1.0, 0.0, 1.0)
 
 
 @spline_of.register
 def _(patch: NurbsPatch) -> NurbsPatch:
-    if is_clamped(patch.knot_vector_u) and is_clamped(patch.knot_vector_w):
+    if patch.knot_vector_u.clamped and patch.knot_vector_w.clamped:
         return patch
     return patch.patch(0.0, 1.0, 0.0, 1.0)
 

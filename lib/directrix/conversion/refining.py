@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -144,7 +145,7 @@ def remove_knot(form: Any, u: float | None = None, w: float | None = None, times
     ----------
     form : BSplineCurve, BSplinePatch, NurbsCurve or NurbsPatch
     u, w : the knot, as a parameter strictly between 0 and 1
-    times : how often, 1 or more
+    times : how often, 1 or more; copies beyond the order, which move nothing, go first
     tolerance : how far a (homogeneous) control point may be off, as a fraction of the size of them all
 
     Raises
@@ -161,11 +162,30 @@ def remove_knot(form: Any, u: float | None = None, w: float | None = None, times
     spline = spline_of(form)
     times = checks.whole("times", times, least=1)
     places = _places(spline, u, w)
-    return _along_axes(spline, [lambda points, knots, at=at: _removed(points, knots, at, times, tolerance) for at in places])
+    rests = [times - _superfluous(given, at) for given, at in zip(_vectors(form), places, strict=True)]
+
+    def fewer(points: Array, knots: KnotVector, axis: int) -> tuple[Array, Array, int]:
+        return _removed(points, knots, places[axis], rests[axis], tolerance)
+
+    return _along_axes(spline, [partial(fewer, axis=axis) for axis in range(len(places))])
+
+
+def _superfluous(knots: KnotVector | None, at: float | None) -> int:
+    """How many copies of a knot are more than the order: none of them changes anything."""
+    return 0 if knots is None or at is None else max(knots.multiplicity(_nearby(knots, at)) - knots.order, 0)
+
+
+def _vectors(form: Any) -> list[KnotVector | None]:
+    """The knot vectors that a form was given, in the order of its parameters; None where it has none of its own."""
+    if isinstance(form, BSplineCurve | NurbsCurve):
+        return [form.knot_vector]
+    if isinstance(form, BSplinePatch | NurbsPatch):
+        return [form.knot_vector_u, form.knot_vector_w]
+    return [None] if isinstance(form, Curve) else [None, None]
 
 
 def _removed(points: Array, knots: KnotVector, at: float | None, times: int, tolerance: float) -> tuple[Array, Array, int]:
-    if at is None:
+    if at is None or times <= 0:
         return points, knots.values, knots.order
     t = _nearby(knots, at)
     there = np.nonzero(knots.values == t)[0]
@@ -189,7 +209,8 @@ def split_bezier(form: Any, u: float | None = None, w: float | None = None) -> A
     """A form cut into Bezier forms: at a parameter, or, if none is given, at all its knots.
 
     With u (or w) a polynomial form of one piece is cut in two by de Casteljau's rule, whose first and last points of each round
-    are the two nets (Farin, Curves and Surfaces for CAGD, 5th ed., section 5.4). Without, a B-spline is cut at its knots.
+    are the two nets (Farin, Curves and Surfaces for CAGD, 5th ed., section 5.4). Without, a B-spline is cut at its knots;
+    constant pieces (order 1) become lines that stand still, since two points are the least that a Bezier form has.
 
     Parameters
     ----------
@@ -224,7 +245,9 @@ def split_bezier(form: Any, u: float | None = None, w: float | None = None) -> A
         return bezier.split(u=u, w=w)
     spline = to_bspline(form)
     if isinstance(spline, BSplineCurve):
+        spline = elevate(spline, int(spline.order == 1))
         return [BezierCurve(points) for points in _cut(spline.control_points, spline.knot_vector)]
+    spline = elevate(spline, int(spline.k == 1), int(spline.l == 1))
     rows = _cut(spline.control_net, spline.knot_vector_u)
     return [[BezierPatch(net.swapaxes(0, 1)) for net in _cut(row.swapaxes(0, 1), spline.knot_vector_w)] for row in rows]
 

@@ -91,20 +91,15 @@ def curve_from(strand: Strand) -> SplineCurve:
 
 @spline_of.register
 def _(curve: BSplineCurve) -> BSplineCurve:
-    return curve if is_clamped(curve.knot_vector) else BSplineCurve(*_clean(curve.control_points, curve.knot_vector))
+    return curve if curve.knot_vector.clamped else BSplineCurve(*_clean(curve.control_points, curve.knot_vector))
 
 
 @spline_of.register
 def _(curve: NurbsCurve) -> NurbsCurve:
-    if is_clamped(curve.knot_vector):
+    if curve.knot_vector.clamped:
         return curve
     points, order, knots = _clean(lifted_points(curve), curve.knot_vector)
     return NurbsCurve(points[:, :3] / points[:, 3:], points[:, 3], order, knots)
-
-
-def is_clamped(knots: KnotVector) -> bool:
-    """Whether both end knots occur order times, and no control point is used twice."""
-    return not knots.wrap and knots.multiplicity(knots.start) == knots.order == knots.multiplicity(knots.end)
 
 
 def _clean(points: Array, knots: KnotVector) -> tuple[Array, int, Array]:

@@ -27,7 +27,7 @@ class BSplineCurve(Curve):
     points : (m, 3), m >= 2
     order : k = degree + 1, 1 <= k <= m; 4 is cubic
     knots : 'open' (starts at the first point, ends at the last), 'uniform', 'periodic' (closed: the first k - 1 points are used
-        again), or m + k non-decreasing numbers, none of them more than k times
+        again), or m + k non-decreasing numbers; a point whose k + 1 knots are all one has no influence
 
     Raises
     ------

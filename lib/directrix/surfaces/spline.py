@@ -131,7 +131,7 @@ class BSplinePatch(SplinePatch):
     net : (m, n, 3), m, n >= 2, first index along u, in any one unit of length
     k, l : orders = degree + 1 along u and w, 1 <= k <= m, 1 <= l <= n; 4 is cubic
     knots_u, knots_w : 'open' (default: reaches the corner points), 'uniform', 'periodic' (closes smoothly: the first k - 1 rows
-        are used again), or m + k (n + l) non-decreasing numbers, none of them more than k (l) times
+        are used again), or m + k (n + l) non-decreasing numbers; a row whose k + 1 knots are all one has no influence
 
     Raises
     ------
