@@ -1,8 +1,9 @@
 """The planned calls of a learner's function: all that marks depend on, made before anything is compared.
 
 Per data set of a map one call with all samples as vectors, one with an open mesh, one with single numbers; for one data set
-also two samples alone, an empty array, and the first call once more at the very end. Only where vectors are not answered,
-single points are asked for one by one. No call depends on whether an earlier answer was right.
+also two samples alone, an empty array, and the first call once more at the very end. Where hidden data decide, vectors do for
+all but the first of the public data sets. Only where vectors are not answered, single points are asked for one by one. No call
+depends on whether an earlier answer was right.
 """
 
 from __future__ import annotations
@@ -61,10 +62,11 @@ def ask_all(targets: Sequence[Target], call: Callable[..., Any]) -> list[Asked]:
             raise _Stopped
         return answer
 
+    first = next((a for a in asked if not a.target.drawn.blind and not a.target.raises), None)
+    decided = any(target.hidden for target in targets)
     try:
         for place in asked:
-            _ask_one(place, put)
-        first = next((a for a in asked if not a.target.drawn.blind and not a.target.raises), None)
+            _ask_one(place, put, every_form=place.target.hidden or place is first or not decided)
         if first is not None:
             _ask_more(first, put)
     except _Stopped:
@@ -72,14 +74,14 @@ def ask_all(targets: Sequence[Target], call: Callable[..., Any]) -> list[Asked]:
     return asked
 
 
-def _ask_one(place: Asked, put: Callable[..., Answer]) -> None:
+def _ask_one(place: Asked, put: Callable[..., Answer], *, every_form: bool) -> None:
     target = place.target
     if not target.exercise.parameters:
         put(place, "vector")
         return
     samples = target.samples
     vector = put(place, "vector", *samples.columns())
-    if target.raises:
+    if target.raises or (_has_shape(vector, target.values.shape) and not every_form):
         return
     put(place, "mesh", *samples.open_mesh())
     scalar = put(place, "scalar", *(float(x) for x in samples.points[-1]))

@@ -123,7 +123,8 @@ def _map_gates(asked: Asked, gated: Gated) -> None:
     if all(isinstance(a, Raised) for a in answers.values()) and isinstance(asked.vector, Raised):
         gated.stopped = error_gate(asked.vector)
         return
-    forms: tuple[Form, ...] = ("vector", "mesh", "scalar")
+    asked_for: tuple[Form, ...] = ("vector", "mesh", "scalar")
+    forms = [form for form in asked_for if answers[form] is not None]
     troubles = [t for form in forms if (t := _trouble(target, form, answers[form], wanted[form])) is not None]
     handled = [form for form in forms if form not in {t.form for t in troubles}]
     if not handled:
