@@ -1,12 +1,14 @@
-"""A curve as data: piecewise Chebyshev coefficients with an evaluator, and nothing that tells how it was made.
+"""A curve or a surface as data: Chebyshev coefficients with an evaluator, and nothing that tells how it was made.
 
-Exercises hand curves to the learner's function. A callable cannot cross into the sandbox without code crossing with it, and a
-callable of the reference library would tell its formula; so every curve is fitted to rounding and crosses as numbers. The
-same opaque type is handed over in a learner's own notebook. This module imports numpy only: the sandbox loads it too.
+Exercises hand curves, and now and then a surface, to the learner's function. A callable cannot cross into the sandbox without
+code crossing with it, and a callable of the reference library would tell its formula; so each is fitted to rounding and crosses
+as numbers. The same opaque type is handed over in a learner's own notebook. A curve may consist of pieces; a surface is one
+piece and has to be smooth. This module imports numpy only: the sandbox loads it too.
 """
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from typing import Any
 
@@ -16,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 DEGREE = 32  # of the trial fit on one piece; a piece whose last coefficients do not vanish is halved
 MAX_PIECES = 64
+SURFACE_DEGREE = 64  # of a surface's fit, in each parameter
 EDGE = 1e-12  # parameters this far outside [0, 1] are taken to be rounding
 
 
@@ -75,6 +78,97 @@ class CurveData:
     def __repr__(self) -> str:
         with np.printoptions(precision=4, suppress=True):
             return f"<curve from {self(0.0)} to {self(1.0)}>"
+
+
+class SurfaceData:
+    """A surface (u, w) -> (..., 3) on the unit square; call it with numbers or arrays that broadcast against each other.
+
+    Attributes
+    ----------
+    coefficients : (n, m, 3) Chebyshev coefficients, along u and along w, each on its own [-1, 1]
+    """
+
+    __slots__ = ("coefficients",)
+
+    def __init__(self, coefficients: ArrayLike) -> None:
+        self.coefficients = np.array(coefficients, dtype=float)
+        if self.coefficients.ndim != 3 or not self.coefficients.size:
+            raise ValueError(f"a surface has coefficients of shape (n, m, dimension); got {self.coefficients.shape}")
+        self.coefficients.flags.writeable = False
+
+    def __call__(self, u: ArrayLike, w: ArrayLike) -> NDArray[np.float64]:
+        """Points at the parameters u and w, their common shape + (3,)."""
+        n, m, _ = self.coefficients.shape
+        across = chebyshev.chebvander(_within("u", u), n - 1)
+        along = chebyshev.chebvander(_within("w", w), m - 1)
+        rows = np.tensordot(across, self.coefficients, 1)  # an open mesh stays open here, which makes it cheap
+        found: NDArray[np.float64] = np.einsum("...md,...m->...d", rows, along)
+        return found
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, SurfaceData) and np.array_equal(self.coefficients, other.coefficients)
+
+    def __hash__(self) -> int:
+        return hash(self.coefficients.tobytes())
+
+    def __repr__(self) -> str:
+        with np.printoptions(precision=4, suppress=True):
+            return f"<surface from {self(0.0, 0.0)} to {self(1.0, 1.0)}>"
+
+
+def _within(name: str, t: ArrayLike) -> NDArray[np.float64]:
+    """Parameters in [0, 1], carried to [-1, 1]."""
+    given: NDArray[np.float64] = np.asarray(t, dtype=float)
+    inside = (given >= -EDGE) & (given <= 1 + EDGE)
+    if not inside.all():
+        raise ValueError(f"surface(u, w) is defined for u and w in [0, 1]; got {name} = {given[~inside].flat[0]:.6g}")
+    carried: NDArray[np.float64] = 2 * np.clip(given, 0.0, 1.0) - 1
+    return carried
+
+
+def as_data(map: Callable[..., Any]) -> CurveData | SurfaceData:
+    """A callable as data: a surface where it needs two arguments, else a curve."""
+    if isinstance(map, SurfaceData):
+        return map
+    try:
+        given = inspect.signature(map).parameters.values()
+    except (TypeError, ValueError):  # some compiled functions do not tell
+        return as_curve(map)
+    needed = [p for p in given if p.default is p.empty and p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+    return as_surface(map) if len(needed) == 2 else as_curve(map)
+
+
+def as_surface(surface: Callable[..., Any], *, tolerance: float = 4e-15) -> SurfaceData:
+    """Fit a vectorised callable (u, w) -> (..., dimension) on the unit square to rounding, in one piece.
+
+    Raises
+    ------
+    ValueError
+        If a series of degree 64 in each parameter does not suffice, or the callable does not return points.
+    """
+    if isinstance(surface, SurfaceData):
+        return surface
+    count = SURFACE_DEGREE + 1
+    angles = np.pi * (np.arange(count) + 0.5) / count
+    nodes = (1 + np.cos(angles)) / 2
+    values = np.asarray(surface(nodes[:, np.newaxis], nodes[np.newaxis, :]), dtype=float)
+    if values.ndim != 3 or values.shape[:2] != (count, count) or not np.isfinite(values).all():
+        raise ValueError(
+            f"a surface must map u of shape (n, 1) and w of shape (1, m) to finite points of shape (n, m, 3); "
+            f"n = m = {count} gave {values.shape}"
+        )
+    cosines = 2.0 / count * np.cos(np.outer(np.arange(count), angles))
+    cosines[0] /= 2
+    coefficients: NDArray[np.float64] = np.einsum("ip,jq,pqd->ijd", cosines, cosines, values, optimize=True)
+    small = tolerance * max(float(np.abs(values).max()), 1e-300)
+    if max(np.abs(coefficients[-3:]).max(), np.abs(coefficients[:, -3:]).max()) > small * np.sqrt(count):
+        raise ValueError(
+            f"the surface is not smooth enough to be written as data of degree {SURFACE_DEGREE}: "
+            "give a smoother one, without kinks, or a part of it"
+        )
+    along_u = _trimmed(coefficients.reshape(count, -1), small).reshape(-1, count, values.shape[2])
+    along_w = _trimmed(np.swapaxes(along_u, 0, 1).reshape(count, -1), small)
+    return SurfaceData(np.swapaxes(along_w.reshape(len(along_w), len(along_u), -1), 0, 1))
 
 
 def as_curve(curve: Callable[[NDArray[np.float64]], Any], *, tolerance: float = 4e-15) -> CurveData:

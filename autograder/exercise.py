@@ -29,7 +29,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from autograder.curvedata import CurveData, as_curve
+from autograder.curvedata import CurveData, SurfaceData, as_data
 from autograder.errors import ExerciseError
 from autograder.result import LADDER, Tier
 
@@ -63,7 +63,8 @@ class DataSet:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A data set with its arguments: values by name, arrays read-only, callables already as :class:`CurveData`."""
+    """A data set with its arguments: values by name, arrays read-only, callables already as :class:`CurveData`
+    or :class:`SurfaceData`."""
 
     name: str
     arguments: Mapping[str, Any]
@@ -251,10 +252,10 @@ def generator(seed: int | str | bytes, *names: str) -> np.random.Generator:
 def _frozen(value: Any) -> Any:
     if isinstance(value, np.generic):  # a learner's own code must behave alike here and in the sandbox: plain numbers
         value = value.item()
-    if isinstance(value, CurveData | str | bool | int | float | None):
+    if isinstance(value, CurveData | SurfaceData | str | bool | int | float | None):
         return value
     if callable(value):
-        return as_curve(value)
+        return as_data(value)
     if isinstance(value, list | tuple) and any(callable(item) for item in value):
         return tuple(_frozen(item) for item in value)
     array = np.array(value)

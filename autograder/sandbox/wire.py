@@ -7,7 +7,7 @@ file runs on both sides.
     frame   kind (1 byte), length of the body (4), id of the exchange (16), body
     body    one value
     value   N | T | F | i int64 | d float64 | s length utf-8 | b length bytes | t count values
-            | a dtype ndim shape data | c array array
+            | a dtype ndim shape data | c array array | p array
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from autograder.curvedata import CurveData
+from autograder.curvedata import CurveData, SurfaceData
 
-Value: TypeAlias = "bool | int | float | str | bytes | NDArray[Any] | CurveData | tuple[Value, ...] | None"
+Value: TypeAlias = "bool | int | float | str | bytes | NDArray[Any] | CurveData | SurfaceData | tuple[Value, ...] | None"
 
 HEADER = struct.Struct("<BI16s")
 LINK_LOST = 71  # exit code of a child that finds its socket closed by the code it runs
@@ -118,6 +118,9 @@ def _write(value: Any, parts: list[bytes], depth: int) -> None:
         parts.append(b"c")
         _write_array(value.breaks, parts)
         _write_array(value.coefficients, parts)
+    elif isinstance(value, SurfaceData):
+        parts.append(b"p")
+        _write_array(value.coefficients, parts)
     elif isinstance(value, tuple):
         if depth < 1:
             raise WireError("tuples nested too deeply")
@@ -172,6 +175,8 @@ class _Reader:
             return self.array()
         if tag == b"c":
             return CurveData(self.member(), self.member())
+        if tag == b"p":
+            return SurfaceData(self.member())
         if tag == b"t":
             return self.members(depth)
         raise WireError(f"unknown kind of value: {tag!r}")
@@ -181,10 +186,10 @@ class _Reader:
 
     def member(self) -> NDArray[Any]:
         if self.take(1) != b"a":
-            raise WireError("a curve consists of two arrays")
+            raise WireError("a curve consists of two arrays, a surface of one")
         array = self.array()
         if array.dtype != np.float64:
-            raise WireError("a curve consists of float64 arrays")
+            raise WireError("curves and surfaces consist of float64 arrays")
         return array
 
     def members(self, depth: int) -> tuple[Any, ...]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from autograder.curvedata import CurveData
+from autograder.curvedata import CurveData, SurfaceData
 from autograder.sandbox.wire import DEPTH
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def find(namespace: dict[str, Any], name: str) -> Callable[..., Any]:
 
 
 def plain(value: Any, depth: int = DEPTH) -> Any:
-    """An answer as None, bool, int, float, str, numeric array, curve, or tuple of these.
+    """An answer as None, bool, int, float, str, numeric array, curve, surface, or tuple of these.
 
     Lists of numbers become arrays, other lists tuples.
 
@@ -51,7 +51,7 @@ def plain(value: Any, depth: int = DEPTH) -> Any:
     Refused
         For anything else; the message says what came and what is wanted.
     """
-    if value is None or isinstance(value, bool | CurveData):
+    if value is None or isinstance(value, bool | CurveData | SurfaceData):
         return value
     if isinstance(value, int | float | str):
         for kind in (int, float, str):
