@@ -231,6 +231,11 @@ def targets(exercise: Exercise, seed: int | str | bytes, *, hidden: bool = False
     return _kept(exercise, seed, known)
 
 
+def forget() -> None:
+    """Drop every target that is remembered, as a new process would."""
+    _kept.cache_clear()
+
+
 @functools.lru_cache(maxsize=KEPT)
 def _kept(exercise: Exercise, seed: int | str | bytes, known: tuple[int, int, float]) -> tuple[Target, ...]:
     return _targets(exercise, seed, False)
