@@ -223,14 +223,12 @@ class Course:
     @functools.cached_property
     def catalogue(self) -> Catalogue | None:
         """The course's own exercises, if it has any."""
-        rooms = ([self.folder], sorted(self.folder.iterdir()), sorted(self.folder.glob("assignments/*")))
-        own = any(catalogue.SLUG.fullmatch(place.name) for room in rooms for place in room)
-        return catalogue.load(self.folder) if own else None
+        return catalogue.load(self.folder) if catalogue.has_assignments(self.folder) else None
 
     def exercise(self, name: str) -> Exercise | None:
-        """The exercise of that name: the course's own first, then the shipped ones."""
+        """The exercise of that name: the course's own first, then the installed and shipped ones."""
         own = self.catalogue.get(name) if self.catalogue is not None else None
-        return own or catalogue.shipped().get(name)
+        return own or catalogue.installed().get(name)
 
     def secret(self) -> bytes:
         """The course secret."""

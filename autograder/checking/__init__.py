@@ -11,10 +11,11 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, NoReturn
 
 from autograder import card
-from autograder.catalogue import shipped
+from autograder.catalogue import Catalogue, around
 from autograder.checking import advice, shell
 from autograder.checking.calling import Learner
 from autograder.checking.signature import trouble_with
@@ -47,9 +48,10 @@ def check(f: Callable[..., Any]) -> float:
         Where nbgrader autogrades without the bridge: marks are then given by the bridge or not at all.
     """
     _refuse_to_grade()
-    exercise = shipped().get(advice.name_of(f)) if callable(f) else None
+    known = exercises()
+    exercise = known.get(advice.name_of(f)) if callable(f) else None
     if exercise is None:
-        _stop(advice.no_exercise(f, shipped(), shell.defined()))
+        _stop(advice.no_exercise(f, known, shell.defined()))
     trouble = trouble_with(exercise, f)
     if trouble is not None and not trouble.callable:
         _stop(trouble.card(exercise))
@@ -73,10 +75,15 @@ def judge_function(id: str, f: Callable[..., Any], seed: int | str | bytes = PUB
     ExerciseError
         If there is no such exercise.
     """
-    exercise = shipped().find(id)
+    exercise = exercises().find(id)
     learner = Learner(f)
     with learner.quiet():
         return judge(exercise, learner, seed=seed)
+
+
+def exercises() -> Catalogue:
+    """All that ``check`` knows here: see :mod:`autograder.catalogue`."""
+    return around(Path.cwd())
 
 
 def _show(exercise: Exercise, f: Callable[..., Any], verdict: Verdict, learner: Learner) -> None:
@@ -95,7 +102,7 @@ def _show(exercise: Exercise, f: Callable[..., Any], verdict: Verdict, learner: 
 
 
 def _missing(name: str) -> dict[str, Any]:
-    return card.bundle(advice.missing(name, shell.failure_of(name), shipped(), shell.defined()))
+    return card.bundle(advice.missing(name, shell.failure_of(name), exercises(), shell.defined()))
 
 
 def _stop(shown: card.Card) -> NoReturn:

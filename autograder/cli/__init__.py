@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from autograder.cli import course, grading, machine
+from autograder.cli import author, course, grading, machine
 from autograder.errors import DirectrixError
 
 app = typer.Typer(
@@ -20,6 +20,7 @@ app = typer.Typer(
 )
 app.command()(course.demo)
 app.command()(course.new)
+app.add_typer(author.author, name="author")
 app.command()(course.release)
 app.command()(course.lab)
 app.command()(grading.check)

@@ -24,33 +24,76 @@ c.Execute.timeout = 5  # seconds of computing for one cell: the sample class has
 
 
 def new(
-    course: Annotated[Path, typer.Argument(help="The new folder.")],
+    course: Annotated[
+        Path | None,
+        typer.Argument(help="The new folder; with --exercise a course or an assignment folder.", show_default="this folder"),
+    ] = None,
     assignment: Annotated[list[str] | None, typer.Option(help="Only these assignments (A1, A2, ...); may be repeated.")] = None,
+    exercise: Annotated[
+        str, typer.Option(metavar="NAME", help="Write a new exercise of your own: the name of its function.")
+    ] = "",
+    kind: Annotated[str, typer.Option(help="What the new exercise answers: surface, curve or value.")] = "surface",
+    points: Annotated[float, typer.Option(help="Points of the new exercise.")] = 5,
 ) -> None:
-    """Make an nbgrader course with the shipped assignments.
+    """Make an nbgrader course with the shipped assignments, or write a new exercise to start from.
 
     Example: directrix new surfaces-2027
+
+    Example: directrix new assignments/20-roofs --exercise barrel_roof
     """
     from autograder import authoring
 
+    console = console_for(as_json=False)
+    if exercise:
+        if assignment:
+            raise typer.BadParameter(
+                "chooses shipped assignments of a new course; it does not go with --exercise", param_hint="--assignment"
+            )
+        folder = authoring.new_exercise(course or Path(), exercise, kind, points)
+        console.print(
+            f"{folder}: exercise {exercise} in exercises.py, its task in notebook.py; both are yours to change", highlight=False
+        )
+        console.print(f"Next: directrix author check {folder}", highlight=False)
+        return
+    if course is None:
+        raise typer.BadParameter("the folder of the new course, as in: directrix new surfaces-2027", param_hint="COURSE")
     made = authoring.new_course(course, tuple(assignment or ()))
-    console = Console()
     console.print(f"{course}: {', '.join(f'{a.name} {a.slug} ({a.points:g} points)' for a in made)}", highlight=False)
     console.print(f"Next: directrix release {made[0].name} --course {course}", highlight=False)
 
 
 def release(
-    assignment: Annotated[str, typer.Argument(help="Assignment in source/, for example A1.")],
+    assignment: Annotated[
+        str, typer.Argument(help="Assignment in source/, for example A1, or one of your own in assignments/.")
+    ],
     course: CourseOption = Path(),
+    with_exercises: Annotated[
+        bool, typer.Option("--with-exercises", help="Put your own exercises, references included, beside the notebook.")
+    ] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Make the learners' version of an assignment: release/A1, with stubs for solutions.
+
+    An assignment of your own (assignments/20-roofs) is first built into source/A20. Its check(...) works in learners' own
+    JupyterLab where they have its exercises: beside the notebook, by --with-exercises, or installed.
 
     Example: directrix release A1
     """
     from autograder import authoring
 
-    made = authoring.release(course, assignment)
-    Console().print(f"{made}: hand it out, or put it on the exchange with nbgrader release_assignment", highlight=False)
+    console = console_for(as_json)
+    made = authoring.release(course, assignment, with_exercises=with_exercises)
+    unknown = authoring.unknown_to_learners(course, made)
+    if as_json:
+        print(json.dumps({"released": str(made), "exercises_not_with_learners": unknown}))
+    console.print(f"{made}: hand it out, or put it on the exchange with nbgrader release_assignment", highlight=False)
+    if unknown:
+        names = ", ".join(unknown)
+        console.print(
+            f"check(...) in learners' own JupyterLab does not know {names}, unless you install them there or release again "
+            "with --with-exercises (docs/authoring.md); grading knows them.",
+            highlight=False,
+        )
 
 
 def lab(

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import os
 import re
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -47,8 +49,11 @@ class OwnWork:
         return asdict(self) | {"complete": self.complete}
 
 
-def run(path: Path, *, timeout: int) -> OwnWork:
-    """Execute a notebook and read the outputs of its ``check(...)`` cells. The file itself is left as it is."""
+def run(path: Path, *, timeout: int, environment: Mapping[str, str] | None = None) -> OwnWork:
+    """Execute a notebook and read the outputs of its ``check(...)`` cells. The file itself is left as it is.
+
+    ``environment`` has variables for its kernel beyond those of this process.
+    """
     try:
         notebook = nbformat.read(path, as_version=4)  # type: ignore[no-untyped-call]
     except FileNotFoundError:
@@ -57,10 +62,15 @@ def run(path: Path, *, timeout: int) -> OwnWork:
         raise SubmissionError(f"{path} is not a notebook that can be read: {error}") from error
     stopped = ""
     client = NotebookClient(
-        notebook, timeout=timeout, allow_errors=True, kernel_name="python3", resources={"metadata": {"path": str(path.parent)}}
+        notebook,
+        timeout=timeout,
+        allow_errors=True,
+        kernel_name="python3",
+        extra_arguments=["--log-level=ERROR"],
+        resources={"metadata": {"path": str(path.parent)}},
     )
     try:
-        client.execute()
+        client.execute(env={**os.environ, **(environment or {})})
     except CellTimeoutError:
         stopped = (
             f"a cell took more than {timeout} seconds, so the cells after it were not run; look for a loop that never ends"

@@ -72,7 +72,7 @@ def test_a_module_that_fails_leaves_nothing_behind_and_can_be_mended(tmp_path):
     folder = assignment(tmp_path / "01-first", "twice")
     good = (folder / "exercises.py").read_text()
     (folder / "exercises.py").write_text("import nothing_of_this_name")
-    with pytest.raises(ModuleNotFoundError):
+    with pytest.raises(CourseError, match=r"exercises\.py:1: ModuleNotFoundError: No module named 'nothing_of_this_name'"):
         catalogue.load(folder)
     (folder / "exercises.py").write_text(good)
     assert [e.id for e in catalogue.load(folder)] == ["twice"]

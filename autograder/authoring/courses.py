@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import logging
 import os
 import secrets
@@ -37,6 +39,11 @@ An nbgrader course. From this folder:
     directrix feedback A1    # -> feedback/*/A1
     directrix lab            # JupyterLab with formgrader
 
+An exercise of your own, in assignments/ (what comes of it: docs/authoring.md of Directrix):
+
+    directrix new . --exercise barrel_roof
+    directrix author check .
+
 Learners' notebooks go to submitted/<student>/<assignment>/. The folder .directrix holds the course secret, from which
 hidden grading data are drawn: it stays with the instructor, and so does source/.
 """
@@ -67,16 +74,27 @@ def new_course(folder: Path, names: tuple[str, ...] = ()) -> list[catalogue.Assi
     return chosen
 
 
-def release(course: Path, name: str) -> Path:
+def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     """Make the learners' version of an assignment with nbgrader itself, and enter its cells into the gradebook.
+
+    An assignment of the course's own, ``assignments/NN-slug``, is built into ``source/`` first: its text is the master. With
+    ``with_exercises`` its exercises are put beside the notebook, for ``check`` in the learners' own JupyterLab.
 
     Returns the folder ``release/NAME``. Raises CourseError with nbgrader's own words where it refuses.
     """
     from nbgrader.apps import NbGraderAPI  # slow to import, and only needed here
     from traitlets.config.loader import PyFileConfigLoader
 
-    if not (course / "nbgrader_config.py").is_file():
+    if not (course / catalogue.CONFIG).is_file():
         raise CourseError(f"{course} is not a course: it has no nbgrader_config.py; make one with `directrix new FOLDER`")
+    own = _own_assignment(course, name)
+    if own is not None:
+        name = own.name
+        _build(own, course / "source" / own.name)
+    if with_exercises and own is None:
+        raise CourseError(
+            f"{name} is no assignment of this course's own, so it has no exercises to release; take the option away"
+        )
     if not (course / "source" / name).is_dir():
         there = sorted(path.name for path in (course / "source").glob("*") if path.is_dir())
         raise CourseError(f"no assignment {name!r} in {course / 'source'}; there are: {', '.join(there) or 'none'}")
@@ -86,7 +104,68 @@ def release(course: Path, name: str) -> Path:
         result = NbGraderAPI(config=config).generate_assignment(name, force=True, create=True)
     if not result["success"]:
         raise CourseError(f"nbgrader could not release {name}:\n{(result.get('log') or result.get('error') or '').strip()}")
-    return course / "release" / name
+    released = course / "release" / name
+    if own is not None and with_exercises:
+        _put_beside(own, released / catalogue.BESIDE / own.folder.name)
+    return released
+
+
+def unknown_to_learners(course: Path, released: Path) -> list[str]:
+    """Exercises of a released assignment that ``check`` finds neither beside it nor installed."""
+    own = _own_assignment(course, released.name)
+    if own is None or (released / catalogue.BESIDE).is_dir():
+        return []
+    return [name for name in own.exercises if catalogue.installed().get(name) is None]
+
+
+def _own_assignment(course: Path, name: str) -> catalogue.Assignment | None:
+    """The course's own assignment of that name, number, slug or folder, if it is one."""
+    if not catalogue.has_assignments(course):
+        return None
+    own = catalogue.load(course).assignments
+    return next((one for one in own if name in (one.name, one.slug, one.folder.name)), None)
+
+
+def _build(own: catalogue.Assignment, folder: Path) -> None:
+    """Write the source notebook of an own assignment; one that was changed by hand since is not overwritten."""
+    if not own.source.is_file():
+        return  # posed in a notebook that the instructor keeps in source/ herself
+    built = source.build(own)
+    built.metadata["directrix"] = {"built": _digest(built)}
+    path = folder / f"{own.slug}.ipynb"
+    if path.exists():
+        there = _read(path)
+        if there.metadata.get("directrix", {}).get("built") != _digest(there):
+            raise CourseError(
+                f"{path} was changed since it was made from {own.source}; take the change over into "
+                f"{own.source.name} and remove {path.name}, or, to go on with the notebook alone, remove {own.source.name}"
+            )
+    folder.mkdir(parents=True, exist_ok=True)
+    path.write_text(source.dumps(built), "utf-8")
+
+
+def _read(path: Path) -> Any:
+    try:
+        return nbformat.read(path, as_version=4)  # type: ignore[no-untyped-call]
+    except Exception as error:
+        raise CourseError(f"{path} is not a notebook that can be read ({error}); remove it and release again") from error
+
+
+def _digest(notebook: Any) -> str:
+    """Of what an author writes: kinds and texts of the cells. Outputs and a viewer's metadata do not count."""
+    written = json.dumps([[cell.cell_type, cell.source] for cell in notebook.cells])
+    return hashlib.sha256(written.encode()).hexdigest()
+
+
+def _put_beside(own: catalogue.Assignment, place: Path) -> None:
+    """Copy the exercises, and only them: the notebook source holds the solutions."""
+    shutil.rmtree(place.parent, ignore_errors=True)
+    place.mkdir(parents=True)
+    for path in own.folder.iterdir():
+        if path.name == "exercises.py":
+            shutil.copyfile(path, place / path.name)
+        elif path.name == "exercises" and path.is_dir():
+            shutil.copytree(path, place / path.name, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
 
 
 def workbook(folder: Path) -> list[Path]:
