@@ -9,7 +9,7 @@ import stat
 import subprocess
 import tempfile
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Literal
@@ -76,6 +76,11 @@ class Sandbox:
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
         self.close()
 
+    @property
+    def descriptor(self) -> int:
+        """The open file that a forked process needs to open sessions here too."""
+        return self._control.fileno()
+
     def open(
         self,
         files: Mapping[str, bytes] | Path | str | None = None,
@@ -83,6 +88,8 @@ class Sandbox:
         *,
         environment: Mapping[str, str] | None = None,
         seed: int = 0,
+        withhold: Sequence[str] = (),
+        peer: socket.socket | None = None,
     ) -> Session:
         """A fresh process for one notebook.
 
@@ -94,11 +101,15 @@ class Sandbox:
             Further environment variables.
         seed : int
             Where ``random`` and ``numpy.random`` start.
+        withhold : sequence of str
+            Top-level modules that this notebook finds neither to import nor to read, though the policy shows them. Level A.
+        peer : socket, optional
+            Its socket to another notebook's process: see :meth:`pair`.
 
         Raises
         ------
         SandboxError
-            If the zygote or the new process fails.
+            If the zygote or the new process fails, or a module cannot be withheld.
         """
         limits = limits or Limits()
         content = _read_folder(Path(files), limits) if isinstance(files, str | Path) else dict(files or {})
@@ -109,13 +120,36 @@ class Sandbox:
             )
         session = self._clone(limits)
         try:
-            session.start(content, dict(environment or {}), seed)
+            session.start(content, dict(environment or {}), seed, tuple(withhold), peer)
         except BaseException:
             session.close()
             raise
         with self._lock:
             self._sessions = {open_one for open_one in self._sessions if open_one.alive} | {session}
         return session
+
+    def pair(
+        self,
+        files: Mapping[str, bytes] | Path | str | None = None,
+        limits: Limits | None = None,
+        *,
+        environment: Mapping[str, str] | None = None,
+        seed: int = 0,
+        withhold: Sequence[str] = (),
+    ) -> tuple[Session, Session]:
+        """Two fresh processes, the learner's and one for the tests, with a socket between them that nobody else holds.
+
+        Both find the same files; ``withhold`` holds for the learner's. See :meth:`Session.run_apart`.
+        """
+        ends = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
+        with ends[0], ends[1]:
+            learner = self.open(files, limits, environment=environment, seed=seed, withhold=withhold, peer=ends[0])
+            try:
+                tests = self.open(files, limits, environment=environment, seed=seed, peer=ends[1])
+            except BaseException:
+                learner.close()
+                raise
+        return learner, tests
 
     def close(self) -> None:
         """End every session and the zygote."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import signal
 
-CELL, CALL, FILES, START = "this cell", "this call of your function", "saving the files", "starting"
+CELL, CALL, FILES, START, TEST = "this cell", "this call of your function", "saving the files", "starting", "this test"
 REST = "What comes after it could not be run"
 SIGNALS: dict[int, str] = {
     signal.SIGSEGV: "a crash in compiled code (segmentation fault)",

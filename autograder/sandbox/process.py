@@ -53,6 +53,7 @@ class Process:
         self._link, self._report, self._pidfd = link, report, pidfd
         self._link.setblocking(False)
         self._cpu = 0.0
+        self._stopped: Ended | None = None
         self._clock = _cpu_clock(pidfd)
         self._poll = select.poll()
         self._poll.register(pidfd, select.POLLIN)
@@ -67,8 +68,8 @@ class Process:
                 self._clock = None
         return self._cpu
 
-    def ask(self, kind: int, request: tuple[Any, ...], action: Action) -> Any:
-        """Send one request and return the decoded answer to it.
+    def ask(self, kind: int, request: tuple[Any, ...], action: Action, beside: Beside | None = None) -> Any:
+        """Send one request and return the decoded answer to it. What is ``beside`` it is ended when its own time is up.
 
         Raises
         ------
@@ -79,13 +80,27 @@ class Process:
         SandboxError
             If the request cannot be sent, or the sandbox itself is gone.
         """
+        return self.take(self.post(kind, request, action), action, beside)
+
+    def post(self, kind: int, request: tuple[Any, ...], action: Action, peer: int | None = None) -> bytes:
+        """Send one request, with a descriptor if one is given; returns the exchange by which to take the answer."""
         try:
             body = wire.encode(request, depth=RESULT_DEPTH)
         except WireError as error:
             raise SandboxError(f"{error} cannot be sent to a notebook") from None
         exchange = secrets.token_bytes(16)
-        self._send(wire.frame(kind, exchange, body), action)
-        answered, name, answer = self._frame(action)
+        data = wire.frame(kind, exchange, body)
+        if peer is not None:
+            try:
+                data = data[socket.send_fds(self._link, [data], [peer]) :]
+            except OSError:
+                self._gone(action)
+        self._send(data, action)
+        return exchange
+
+    def take(self, exchange: bytes, action: Action, beside: Beside | None = None) -> Any:
+        """Wait for the answer to a request that was posted."""
+        answered, name, answer = self._frame(action, beside)
         if answered != wire.DONE or name != exchange:
             raise WireError("an answer to another question")
         return wire.decode(answer, depth=RESULT_DEPTH, items=action.items, raw=action.raw)
@@ -102,6 +117,12 @@ class Process:
         self._cpu, self._clock = max(self._cpu, float(end["cpu"])), None
         self.max_rss = int(end["max_rss"])
         return end
+
+    def stop(self, why: Ended) -> None:
+        """End it while nobody waits for it; who asks next is told why."""
+        self._stopped = why
+        with contextlib.suppress(OSError):
+            signal.pidfd_send_signal(self._pidfd, signal.SIGKILL)
 
     def close(self) -> None:
         """Let go of its sockets. It must have been killed."""
@@ -124,9 +145,9 @@ class Process:
             except OSError:
                 self._gone(action)
 
-    def _frame(self, action: Action) -> tuple[int, bytes, bytes]:
+    def _frame(self, action: Action, beside: Beside | None = None) -> tuple[int, bytes, bytes]:
         """One whole frame: kind, exchange, body."""
-        watch = _Watch(self.cpu + action.cpu, time.monotonic() + action.wall)
+        watch = _Watch(self.cpu + action.cpu, time.monotonic() + action.wall, beside)
         self._poll.register(self._link, select.POLLIN)
         kind, length, exchange = wire.header(self._read(wire.HEADER.size, watch, action), action.most)
         return kind, exchange, self._read(length, watch, action)
@@ -164,6 +185,8 @@ class Process:
         if limit:
             self.kill()
             raise Over(self.out_of_time(limit, action))
+        if watch.beside is not None:
+            watch.beside.within()
 
     def out_of_time(self, limit: Literal["cpu", "wall"], action: Action) -> Ended:
         """Why an action was stopped, in words."""
@@ -181,6 +204,8 @@ class Process:
         end = self.kill()
         if end is None:
             raise SandboxError("the zygote has died, and the notebook's process with it")
+        if self._stopped is not None:
+            raise Over(self._stopped)
         status = int(end["status"])
         number = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
         if not by_itself or (os.WIFEXITED(status) and os.WEXITSTATUS(status) == wire.LINK_LOST):
@@ -192,11 +217,28 @@ class Process:
         raise Over(Ended("died", messages.died(action.what, number, os.WEXITSTATUS(status))))
 
 
+class Beside:
+    """A process that works for another one's exchange, within CPU seconds of its own."""
+
+    def __init__(self, process: Process, cpu: float) -> None:
+        self.process, self.cpu, self.most = process, cpu, process.cpu + cpu + SOFT
+
+    @property
+    def left(self) -> float:
+        """CPU seconds that it has left."""
+        return self.most - self.process.cpu
+
+    def within(self) -> None:
+        """End it if it has used up its time; whoever waits for it meets its end."""
+        if self.left < 0:
+            self.process.stop(Ended("timeout", messages.cpu_time(messages.TEST, self.cpu), "cpu"))
+
+
 class _Watch:
     """The two deadlines of one exchange: CPU seconds of the child, and the clock."""
 
-    def __init__(self, cpu: float, wall: float) -> None:
-        self.cpu, self.wall = cpu + SOFT, wall + SOFT
+    def __init__(self, cpu: float, wall: float, beside: Beside | None = None) -> None:
+        self.cpu, self.wall, self.beside = cpu + SOFT, wall + SOFT, beside
 
     def over(self, used: float) -> Literal["cpu", "wall"] | None:
         if used > self.cpu:
@@ -205,7 +247,8 @@ class _Watch:
 
     def pause(self, used: float) -> float:
         """How long nothing can be over: all cores together cannot use up the CPU time any sooner."""
-        return max(0.002, min(self.wall - time.monotonic(), (self.cpu - used) / CORES))
+        left = self.cpu - used if self.beside is None else max(0.01, min(self.cpu - used, self.beside.left))
+        return max(0.002, min(self.wall - time.monotonic(), left / CORES))
 
 
 def _cpu_clock(pidfd: int) -> int | None:

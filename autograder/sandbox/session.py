@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import time
 import unicodedata
 from collections.abc import Mapping, Sequence
@@ -11,7 +12,7 @@ from typing import Any, Literal
 from autograder.errors import CallFailed, SandboxError
 from autograder.sandbox import messages, outputs, wire
 from autograder.sandbox.policy import CellResult, CellStatus, Ended, Limits, Usage
-from autograder.sandbox.process import Action, Over, Process
+from autograder.sandbox.process import Action, Beside, Over, Process
 from autograder.sandbox.wire import Value, WireError
 
 ROOM = 4 * 2**20  # of a frame beyond the text it shows: tracebacks, names, framing
@@ -74,6 +75,52 @@ class Session:
         except Over as over:
             return CellResult(status=over.ended.kind, note=over.ended.message)
 
+    def run_apart(self, source: str, names: Sequence[str], learner: Session, *, limits: Limits | None = None) -> CellResult:
+        """Run a test cell in this session whose ``names`` are those of ``learner``, opened with it by :meth:`Sandbox.pair`.
+
+        The learner's session may be over afterwards: its ``alive`` tells.
+
+        Raises
+        ------
+        SandboxError
+            If the sandbox itself fails.
+        """
+        limits = limits or self.limits
+        action = self._action(messages.TEST, limits.cell_cpu, limits, 4 * limits.output + ROOM)
+        theirs = learner._action(messages.TEST, limits.cell_cpu, limits, ROOM)
+        if self.ended is not None:
+            return CellResult(status="died", note=self.ended.message)
+        if learner.ended is not None:
+            return CellResult(status="died", note=learner.ended.message)
+        try:
+            serving = learner._process.post(wire.SERVE, (theirs.cpu, theirs.wall, limits.output), theirs)
+        except Over as over:
+            learner.ended = over.ended
+            return CellResult(status=over.ended.kind, note=over.ended.message)
+        try:
+            request = (source, tuple(names), action.cpu, action.wall, limits.output, limits.outputs)
+            answer = self._ask(wire.APART, request, action, Beside(learner._process, theirs.cpu))
+            result = self._cell_result(answer, action, limits)
+        except Over as over:
+            result = CellResult(status=over.ended.kind, note=over.ended.message)
+        learner._served(serving)
+        if learner.ended is not None and result.status == "error":  # whatever the test made of it
+            result = CellResult(result.outputs, result.execution_count, learner.ended.kind, learner.ended.message)
+        return result
+
+    def _served(self, exchange: bytes) -> None:
+        """The tests are done with this session: it should say so at once."""
+        try:
+            self._process.take(exchange, Action(messages.TEST, 1.0, 5.0, ROOM))
+        except Over as over:
+            self.ended = over.ended
+        except WireError as error:
+            self._breach(error)
+        except SandboxError as error:
+            self._process.kill()
+            self.ended = Ended("died", str(error))
+            raise
+
     def call(self, name: str, arguments: Sequence[Value], *, limits: Limits | None = None) -> Value:
         """Call the notebook's function ``name`` with positional arguments; what it prints is discarded.
 
@@ -115,15 +162,24 @@ class Session:
             self.ended = Ended("died", "the session was closed")
         self._process.close()
 
-    def start(self, files: Mapping[str, bytes], environment: Mapping[str, str], seed: int) -> None:
-        """Have the child lay out its files and confine itself. Called once, by the sandbox."""
+    def start(
+        self,
+        files: Mapping[str, bytes],
+        environment: Mapping[str, str],
+        seed: int,
+        withhold: tuple[str, ...] = (),
+        peer: socket.socket | None = None,
+    ) -> None:
+        """Have the child lay out its files and confine itself; give it its socket to a peer. Called once, by the sandbox."""
         for name in files:
             if not all(map(plain_name, name.split("/"))):
                 raise SandboxError(f"a notebook's files have relative paths of plain names; got {name!r}")
         action = Action(messages.START, START_SECONDS, START_SECONDS, 2**20)
         try:
-            answer = self._ask(wire.START, (tuple(files.items()), tuple(environment.items()), seed), action)
-        except Over as error:
+            request = (tuple(files.items()), tuple(environment.items()), seed, withhold)
+            posted = self._process.post(wire.START, request, action, None if peer is None else peer.fileno())
+            answer = self._process.take(posted, action)
+        except (Over, WireError) as error:
             raise SandboxError(f"a notebook's process could not be started: {error}") from None
         confined, *self.facts = answer
         if confined is not True:
@@ -141,10 +197,10 @@ class Session:
         cpu = min(cpu, max(left, 0.01))
         return Action(what, cpu, limits.wall(cpu), most, items, raw)
 
-    def _ask(self, kind: int, request: tuple[Any, ...], action: Action) -> Any:
+    def _ask(self, kind: int, request: tuple[Any, ...], action: Action, beside: Beside | None = None) -> Any:
         """One exchange; whatever ends the process ends the session, and is raised as Over or SandboxError."""
         try:
-            return self._process.ask(kind, request, action)
+            return self._process.ask(kind, request, action, beside)
         except Over as over:
             self.ended = over.ended
             raise

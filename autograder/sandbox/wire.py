@@ -26,9 +26,11 @@ Value: TypeAlias = "bool | int | float | str | bytes | NDArray[Any] | CurveData 
 HEADER = struct.Struct("<BI16s")
 LINK_LOST = 71  # exit code of a child that finds its socket closed by the code it runs
 
-START, CELL, CALL, FILES = 1, 2, 3, 4  # asked of the child
+START, CELL, CALL, FILES, SERVE, APART = 1, 2, 3, 4, 5, 6  # asked of the child
 DONE = 65  # its answer
-KINDS = frozenset({START, CELL, CALL, FILES, DONE})
+KINDS = frozenset({START, CELL, CALL, FILES, SERVE, APART, DONE})
+PEER_CALL, NAME, END, REPLY = 97, 98, 99, 100  # between two notebooks' processes; never taken by the trusted side
+PEER_KINDS = frozenset({PEER_CALL, NAME, END, REPLY})
 
 DEPTH = 4
 ITEMS = 100_000
@@ -49,7 +51,7 @@ def frame(kind: int, exchange: bytes, body: bytes) -> bytes:
     return HEADER.pack(kind, len(body), exchange) + body
 
 
-def header(data: bytes, limit: int) -> tuple[int, int, bytes]:
+def header(data: bytes, limit: int, kinds: frozenset[int] = KINDS) -> tuple[int, int, bytes]:
     """Kind, length of the body and id of the exchange.
 
     Raises
@@ -58,7 +60,7 @@ def header(data: bytes, limit: int) -> tuple[int, int, bytes]:
         On an unknown kind, or a body longer than the limit.
     """
     kind, length, exchange = HEADER.unpack(data)
-    if kind not in KINDS:
+    if kind not in kinds:
         raise WireError(f"unknown kind of frame: {kind}")
     if length > limit:
         raise WireError(f"a frame of {length} bytes; at most {limit} are taken")

@@ -1,6 +1,7 @@
 """One notebook's process: confines itself, then runs cells and calls functions for the trusted side until it is ended.
 
-Code of learners shares this process, so nothing it answers is believed on the other side.
+Code of learners shares this process, so nothing it answers is believed on the other side. Where test cells run apart, two
+such processes hold a socket to each other: the learner's (``serve``) and the tests' (``apart``); see :mod:`.peer`.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ import signal
 import socket
 import stat
 import sys
+import time
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -21,6 +24,7 @@ import numpy as np
 from autograder.sandbox import wire
 from autograder.sandbox.guest import answers, confine
 from autograder.sandbox.guest.answers import TimeLimitExceeded
+from autograder.sandbox.guest.peer import NoAnswer, Peer, Unreachable
 from autograder.sandbox.guest.shell import Shell
 
 ENVIRONMENT = {
@@ -44,9 +48,9 @@ def main(job: int, level: str, limits: dict[str, Any], scratch: str, programme: 
     os.closerange(4, 2**20)
     link = socket.socket(fileno=3)
     server = Server(link, limits, shell, f"{scratch}/work")
-    exchange, (files, environment, seed) = server.request()[1:]
+    exchange, (files, environment, seed, withhold) = server.first()
     try:
-        facts = confine.confine(level, limits, scratch, programme, lambda: _lay_out(files))
+        facts = confine.confine(level, limits, scratch, programme, lambda: _lay_out(files), withhold)
     except BaseException as error:
         link.sendall(wire.frame(wire.DONE, exchange, wire.encode((False, f"{type(error).__name__}: {error}"))))
         os._exit(70)
@@ -70,6 +74,7 @@ class Server:
         self.link, self.limits, self.shell, self.work = link, limits, shell, work
         self.seed = 0
         self.calls = 0
+        self.peer: socket.socket | None = None  # to the process of the tests, or of the code that they test
 
     def answer(self) -> None:
         """Read one request and answer it."""
@@ -78,9 +83,22 @@ class Server:
             answer: Any = self.cell(*request)
         elif kind == wire.CALL:
             answer = self.call(*request)
+        elif kind == wire.SERVE:
+            self.serve(*request)
+            answer = None
+        elif kind == wire.APART:
+            answer = self.apart(*request)
         else:
             answer = tuple(self.files())
         self.link.sendall(wire.frame(wire.DONE, exchange, wire.encode(answer, depth=RESULT_DEPTH)))
+
+    def first(self) -> tuple[bytes, tuple[Any, ...]]:
+        """The first request, which may bring a socket along: the one to another notebook's process."""
+        data, descriptors, *_ = socket.recv_fds(self.link, wire.HEADER.size, 1, socket.MSG_CMSG_CLOEXEC)
+        if descriptors:
+            self.peer = socket.socket(fileno=descriptors[0])
+        _, length, exchange = wire.header(data + self._receive(wire.HEADER.size - len(data)), MAX_REQUEST)
+        return exchange, wire.decode(self._receive(length), depth=RESULT_DEPTH, items=MAX_REQUEST, raw=True)
 
     def request(self) -> tuple[int, bytes, tuple[Any, ...]]:
         """Read one request: its kind, its exchange and what it asks."""
@@ -118,6 +136,63 @@ class Server:
             if size > limit:
                 raise answers.Refused(f"the answer has {size} bytes; at most {limit} are taken")
         return tuple(failure) or answer
+
+    def serve(self, cpu: float, wall: float, output: int) -> None:
+        """Let the tests' process call this notebook's functions, until it is done with a cell."""
+        assert self.peer is not None
+        recorder, left, within = self.shell.recorder, cpu, 0
+        recorder.begin(output, 1000)
+
+        def printed() -> tuple[str, str]:
+            self.shell.printed_by_c()
+            texts = recorder.texts()
+            recorder.begin(recorder.left, 1000)
+            return texts
+
+        @contextmanager
+        def timed() -> Iterator[None]:
+            nonlocal left, within
+            began, within = time.process_time(), within + 1
+            try:
+                if within > 1:  # a call back to a call: the time of the first one is running
+                    yield
+                    return
+                with _timed(max(left, 0.01), wall):
+                    yield
+            finally:
+                within -= 1
+                left -= time.process_time() - began if not within else 0.0
+
+        with warnings.catch_warnings():  # which makes every warning fresh again: each test cell meets its own
+            Peer(self.peer, self.shell.user_ns.__getitem__, printed, timed).serve()
+
+    def apart(self, source: str, names: tuple[str, ...], cpu: float, wall: float, output: int, outputs: int) -> tuple[Any, ...]:
+        """Run a test cell here whose ``names`` are the other process's: functions stand in for its own, data are copied."""
+        assert self.peer is not None
+        peer = Peer(self.peer, _nothing)
+        namespace = self.shell.user_ns
+        try:
+            with _timed(cpu, wall), warnings.catch_warnings():
+                for name in names:
+                    namespace.pop(name, None)
+                    try:
+                        namespace[name] = peer.value(name)
+                    except KeyError:
+                        continue
+                    except NoAnswer as error:
+                        namespace[name] = Unreachable(peer, str(error))
+                peer.lost.clear()
+                status = self.shell.run(source, output, outputs)
+        except TimeLimitExceeded:
+            status = "timeout"
+        except NoAnswer:  # while the cell's result was shown
+            status = "ok"
+        finally:
+            peer.end()
+        if peer.lost and status == "ok":  # the test went on without an answer that it asked for
+            self.shell.recorder.error("NoAnswer", peer.lost[0], [f"NoAnswer: {peer.lost[0]}"])
+            status = "error"
+        return (status, self.shell.number, *self.shell.shown())
 
     def files(self) -> Iterator[tuple[str, bytes]]:
         """Regular files of the working folder, within the limits; folders deeper than 16 are left out."""
@@ -181,6 +256,11 @@ def _environment(scratch: str, more: tuple[tuple[str, str], ...]) -> None:
     os.environ.update(more)
     sys.path.insert(0, "")
     sys.argv[:] = ["notebook"]
+
+
+def _nothing(name: str) -> Any:
+    """The tests' names are not for the code that they test."""
+    raise KeyError(name)
 
 
 def _reseed(seed: int, number: int) -> None:

@@ -9,9 +9,11 @@ one, and read by the next). Whatever fails raises: there is no weaker way on.
 from __future__ import annotations
 
 import contextlib
+import glob
 import os
 import resource
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Sequence
 
 from autograder.sandbox import system
 
@@ -26,17 +28,26 @@ PROCESS_ID_MAX = 400  # the least a kernel takes is about 300; RLIMIT_NPROC is t
 
 
 def confine(
-    level: str, limits: dict[str, int | float], scratch: str, programme: bytes, lay_out: Callable[[], None]
+    level: str,
+    limits: dict[str, int | float],
+    scratch: str,
+    programme: bytes,
+    lay_out: Callable[[], None],
+    withhold: Sequence[str] = (),
 ) -> dict[str, int | str]:
     """Put up all walls; afterwards the process is in its own working folder. Returns what was found on the way.
 
-    ``lay_out`` writes the notebook's files into the current folder, before that may become unwritable.
+    ``lay_out`` writes the notebook's files into the current folder, before that may become unwritable. ``withhold`` are
+    modules that this process shall not find.
     """
     facts: dict[str, int | str] = {"level": level}
     os.setsid()  # kill(0) reaches a whole process group, also across pid namespaces: be a group of one
     if level == "A":
         _become_somebody()
         facts["proc"] = _own_mounts(limits)
+        _withhold(withhold)
+    elif withhold:
+        raise OSError(f"to withhold {', '.join(withhold)}, a notebook needs a mount namespace of its own, which level A has")
     work, temporary = f"{scratch}/work", f"{scratch}/tmp"
     for folder in (work, temporary, f"{scratch}/home"):
         os.mkdir(folder, 0o700)
@@ -81,6 +92,21 @@ def _own_mounts(limits: dict[str, int | float]) -> str:
     with contextlib.suppress(OSError):  # counted per pid namespace from Linux 6.14 on; before, nobody here may write it
         _write("/proc/sys/kernel/pid_max", str(PROCESS_ID_MAX))
     return "own"
+
+
+def _withhold(modules: Sequence[str]) -> None:
+    """Cover the files of top-level modules, and what is compiled of them, with nothing."""
+    for name in modules:
+        if any(loaded.partition(".")[0] == name for loaded in sys.modules):
+            raise OSError(f"{name} cannot be withheld: the sandbox itself uses it")
+        for folder in filter(os.path.isdir, sys.path):
+            for path in glob.glob(f"{glob.escape(folder)}/{name}*") + glob.glob(f"{glob.escape(folder)}/__pycache__/{name}.*"):
+                if os.path.basename(path).partition(".")[0].partition("-")[0] != name:
+                    continue  # another module whose name begins alike
+                if os.path.isdir(path):
+                    system.mount("tmpfs", path, "tmpfs", system.MS_NOSUID | system.MS_NODEV | system.MS_RDONLY, "size=4k")
+                else:
+                    system.mount("/dev/null", path, None, system.MS_BIND)
 
 
 def _capture(scratch: str, size: int) -> None:

@@ -50,6 +50,12 @@ class Recorder:
         self.clear_at_next = False
         self.full = False
 
+    def texts(self) -> tuple[str, str]:
+        """What was printed to stdout and to stderr."""
+        streams = [output for output in self.outputs if output[0] == "stream"]
+        out, err = ("".join("".join(parts) for _, name, parts in streams if name == wanted) for wanted in ("stdout", "stderr"))
+        return out, err
+
     def stream(self, name: str, text: str) -> None:
         """Printed text; it is joined to the text before it."""
         if self.silent or self.full or not text:
@@ -258,7 +264,7 @@ class Shell(InteractiveShell):
         self.ran_into = None
         self.number = self.execution_count
         result = self.run_cell(source, store_history=True)  # type: ignore[no-untyped-call]
-        self._printed_by_c()
+        self.printed_by_c()
         error = result.error_before_exec or result.error_in_exec
         if isinstance(error, TimeLimitExceeded):
             return "timeout"
@@ -297,10 +303,10 @@ class Shell(InteractiveShell):
             yield
         finally:
             self.recorder.silent = False
-            self._printed_by_c()
+            self.printed_by_c()
 
-    def _printed_by_c(self) -> None:
-        """Take what was written to file descriptors 1 and 2 past Python, and empty that file."""
+    def printed_by_c(self) -> None:
+        """Record: take what was written to file descriptors 1 and 2 past Python, and empty that file."""
         try:
             size = os.lseek(1, 0, os.SEEK_END)
             text = os.pread(1, min(size, self.recorder.left + 1), 0).decode("utf-8", "replace") if size else ""
