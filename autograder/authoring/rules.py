@@ -16,7 +16,7 @@ import numpy as np
 
 from autograder.authoring.sampling import answer, apart, refuses
 from autograder.catalogue import Assignment
-from autograder.curvedata import CurveData
+from autograder.curvedata import CurveData, SurfaceData
 from autograder.errors import CourseError
 from autograder.exercise import PUBLIC_SEED, Drawn, Exercise
 from autograder.judge import judge
@@ -212,7 +212,7 @@ def each_mistake_is_named_as_itself(exercise: Exercise, seeds: Sequence[int]) ->
     for mistake in exercise.mistakes:
         for seed in JUDGED:
             verdict = judge(exercise, mistake.formula, seed=seed, figure=False)
-            if verdict.mistake != mistake.id:
+            if (verdict.mistake, verdict.tier) != (mistake.id, "mistake") or mistake.hint not in verdict.message:
                 got = f"as {verdict.mistake!r}" if verdict.mistake else f"not at all (tier {verdict.tier!r})"
                 said = f"the judge names mistake {mistake.id!r} {got} under seed {seed!r}"
                 yield said, "make it differ more, from the reference or from that other mistake"
@@ -306,7 +306,7 @@ def _written(drawn: Drawn) -> list[bytes]:
 
 
 def _value(value: Any) -> bytes:
-    if isinstance(value, CurveData):
+    if isinstance(value, CurveData | SurfaceData):
         return value.coefficients.tobytes()
     if isinstance(value, tuple):
         return b"|".join(map(_value, value))

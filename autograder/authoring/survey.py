@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
@@ -15,6 +16,8 @@ from autograder.authoring.sampling import answer, apart
 from autograder.exercise import PUBLIC_SEED, Exercise
 from autograder.judge import judge
 from autograder.result import Outcome, Tier
+
+MANY = 6
 
 
 @dataclass(frozen=True)
@@ -55,20 +58,23 @@ def survey(exercise: Exercise) -> list[Seen]:
     return found
 
 
-def table(exercise: Exercise, found: Iterable[Seen]) -> Table:
-    """The survey of one exercise for a terminal."""
+def table(exercise: Exercise, found: Iterable[Seen]) -> Group:
+    """The survey of one exercise for a terminal. Where there are many data sets, they are numbered and told below."""
     title = Text.assemble((exercise.id, "bold"), f"  {exercise.title}, {exercise.kind}, {exercise.points:g} points")
-    shown = Table(title=title, title_justify="left", caption_justify="left")
+    names = [f"{known.name} (blind)" if known.blind else known.name for known in exercise.data_sets]
+    numbered = len(names) > MANY
+    shown = Table()
     shown.add_column("mistake", no_wrap=True)
-    for known in exercise.data_sets:
-        shown.add_column(f"{known.name}\n(blind)" if known.blind else known.name, justify="right")
+    for number, name in enumerate(names, 1):
+        shown.add_column(str(number) if numbered else name.replace(" ", "\n"), justify="right")
     shown.add_column("points", justify="right")
     shown.add_column("without its name", no_wrap=True)
     for seen in found:
         far = [_written(seen.distances[known.name]) for known in exercise.data_sets]
         earned = f"{seen.fraction * exercise.points:g}"
         shown.add_row(Text(seen.mistake), *far, earned, f"{seen.tier}, {seen.unnamed * exercise.points:g}")
-    return shown
+    legend = [Text("  ".join(f"{number} {name}" for number, name in enumerate(names, 1)), style="dim")] if numbered else []
+    return Group(title, shown, *legend)
 
 
 def _written(distance: float) -> Text:
