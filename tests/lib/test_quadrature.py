@@ -1,5 +1,7 @@
 """Adaptive quadrature: exact where the rule is, honest at kinks."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from directrix.quadrature import integrate, integrate_square
@@ -35,3 +37,21 @@ def test_breaks_make_a_step_exact():
 def test_zero_is_zero():
     """Nothing to compare with, and still an end."""
     assert integrate_square(lambda u, w: 0 * u, WHOLE, WHOLE) == 0
+
+
+@pytest.mark.parametrize("rational", [False, True])
+def test_area_of_a_folded_patch(rational):
+    """A random net folds, and |S_u x S_w| dips nearly to zero along curves: against 200 x 200 Gauss points on each piece."""
+    import directrix as dx
+
+    rng = np.random.default_rng(2024)
+    net, weights = rng.standard_normal((5, 4, 3)), rng.uniform(0.5, 2, (5, 4))
+    patch = dx.NurbsPatch(net, weights, 4, 3) if rational else dx.BezierPatch(net)
+    nodes, shares = np.polynomial.legendre.leggauss(200)
+    total = 0.0
+    for a, b in pairwise(patch.breaks()[0]):
+        for c, d in pairwise(patch.breaks()[1]):
+            grid = (a + b + (b - a) * nodes[:, None]) / 2, (c + d + (d - c) * nodes) / 2
+            element = np.linalg.norm(np.cross(patch.derivative(*grid, 1, 0), patch.derivative(*grid, 0, 1)), axis=-1)
+            total += shares @ element @ shares * (b - a) * (d - c) / 4
+    assert patch.area() == pytest.approx(total, rel=1e-6)

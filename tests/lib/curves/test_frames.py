@@ -6,6 +6,7 @@ import pytest
 from directrix.curves.frames import FRAMES, unit_tangent
 from directrix.curves.function import as_curve
 from directrix.differential import numeric_derivative
+from scipy.integrate import solve_ivp
 
 W = np.linspace(0, 1, 33)
 PITCH = 2.0  # along z in one turn, radius 1
@@ -115,3 +116,21 @@ def test_frames_that_do_not_exist(kind, directrix, message):
 def test_the_neighbours_exist(kind, directrix):
     """The minimal frame needs no curvature, the fixed one nothing."""
     assert np.allclose(np.linalg.det(FRAMES[kind](directrix).rotation(W)), 1)
+
+
+def test_minimal_frame_solves_its_differential_equation():
+    """r' = -(t' . r) t (Wang et al. 2008, eq. 2), integrated by scipy from the axes at w = 0."""
+    curve = dx.BezierCurve([(0, 0, 0), (1, 3, 1), (4, 3, -2), (5, 0, 3)])
+
+    def rate(w, r):
+        d1, d2 = curve.derivative(w, 1), curve.derivative(w, 2)
+        speed = np.linalg.norm(d1)
+        t = d1 / speed
+        bend = (d2 - (d2 @ t) * t) / speed
+        return -(bend @ r) * t
+
+    start = np.cross(curve.derivative(0.0, 1), (0.0, 0.0, 1.0))
+    start = start / np.linalg.norm(start)
+    solved = solve_ivp(rate, (0, 1), start, method="DOP853", rtol=1e-12, atol=1e-13, dense_output=True)
+    rotation = FRAMES["minimal"](curve).rotation(np.linspace(0, 1, 9))
+    assert np.allclose(rotation @ start, solved.sol(np.linspace(0, 1, 9)).T, atol=1e-6)
