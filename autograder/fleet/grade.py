@@ -1,7 +1,8 @@
-"""Grades a class: a thread pool over one sandbox, marks committed in batches, ``autograded/`` renamed into place last.
+"""Grades a class: worker processes over one sandbox, marks committed in batches, ``autograded/`` renamed into place last.
 
-Killed at any moment and started again, the gradebook is what one clean run gives: what is not published is graded again, and
-the same bytes get the same marks. What is graded and unchanged is left alone.
+A worker reads, runs and judges whole submissions and lays their files out beside their place; this process hands out names,
+commits batches and renames. Killed at any moment and started again, the gradebook is what one clean run gives: what is not
+published is graded again, and the same bytes get the same marks. What is graded and unchanged is left alone.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ import logging
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from pathlib import Path
 
 from autograder.course import Course
@@ -24,6 +24,7 @@ from autograder.fleet import publish
 from autograder.fleet.journal import Entry, Journal, only_grader
 from autograder.fleet.one import Outcome, Plan, grade_one
 from autograder.fleet.result import GradeReport, StudentReport
+from autograder.fleet.workers import Crew, Lost
 from autograder.gradebook import Gradebook, NotebookMarks, Record, Standing
 from autograder.notebook.session import opened
 from autograder.notebook.submission import PLAIN_ID, read_file, read_folder
@@ -90,6 +91,29 @@ def _chosen(course: Course, assignment: str, students: Iterable[str] | None) -> 
     return {student: there[student] for student in sorted(wanted)}
 
 
+@dataclasses.dataclass(frozen=True)
+class _Task:
+    """A submission to be graded: nothing of it but its name has been read."""
+
+    student: str
+    folder: Path
+
+
+@dataclasses.dataclass(frozen=True)
+class _Landed:
+    """What a worker says of a submission: graded and laid out beside its place, or why not.
+
+    ``broken`` is the submission's fault, ``fault`` the grader's; ``unwritten``: graded, but its files could not be laid out.
+    """
+
+    student: str
+    outcome: Outcome | None = None
+    staged: Path | None = None
+    broken: str = ""
+    fault: str = ""
+    unwritten: str = ""
+
+
 class _Run:
     """One grading run over one assignment."""
 
@@ -104,7 +128,7 @@ class _Run:
         self.penalty = course.penalty()
         self.version = hashlib.sha256("".join(master.digest for master in self.masters.values()).encode()).hexdigest()
         self.done: dict[str, StudentReport] = {}
-        self.waiting: list[Outcome] = []
+        self.waiting: list[_Landed] = []
         self.committed = time.monotonic()
         self.total = 0
 
@@ -126,47 +150,62 @@ class _Run:
                 todo[student] = folder
         if todo:
             self.book.add_course(self.course.id)
-            with self._plan() as plan, ThreadPoolExecutor(workers, "grader") as pool:
-                self._work(plan, pool, todo, 2 * workers)
+            with self._plan() as plan:
+                self._work(plan, [_Task(student, folder) for student, folder in todo.items()], workers)
 
-    def _work(self, plan: Plan, pool: ThreadPoolExecutor, todo: Mapping[str, Path], most: int) -> None:
-        """Keep a bounded number of submissions in flight, so that memory does not grow with the class."""
-        queue = iter(todo.items())
-        flying: dict[Future[Outcome], str] = {}
+    def _work(self, plan: Plan, todo: list[_Task], workers: int) -> None:
+        def work(task: _Task, number: int) -> _Landed:
+            return self._one(plan, task)
+
+        with Crew(work, min(workers, len(todo)), plan.descriptors) as crew:
+            try:
+                for done in crew.each(todo, BATCH_SECONDS):
+                    if done is not None:
+                        task, landed = done
+                        self._land(_Landed(task.student, fault=str(landed)) if isinstance(landed, Lost) else landed)
+                    self._commit(full=False)
+            finally:
+                crew.close()
+                for task in crew.unfinished:
+                    publish.clear(self._place(task.student))
+                self._commit(full=True)
+
+    def _place(self, student: str) -> Path:
+        return self.course.path("autograded", student, self.row.name)
+
+    def _one(self, plan: Plan, task: _Task) -> _Landed:
+        """In a worker: grade one submission and lay its files out beside their place."""
         try:
-            while True:
-                for student, folder in queue:
-                    flying[pool.submit(self._one, plan, student, folder)] = student
-                    if len(flying) >= most:
-                        break
-                if not flying:
-                    break
-                landed, _ = wait(flying, timeout=BATCH_SECONDS, return_when=FIRST_COMPLETED)
-                for future in landed:
-                    self._land(flying.pop(future), future)
-                self._commit(full=False)
-        finally:
-            for future in flying:
-                future.cancel()
-            self._commit(full=True)
-
-    def _one(self, plan: Plan, student: str, folder: Path) -> Outcome:
-        return grade_one(plan, student, read_folder(folder, ignore=self.course.ignore, bounds=self.course.bounds))
-
-    def _land(self, student: str, future: Future[Outcome]) -> None:
-        try:
-            outcome = future.result()
+            submitted = read_folder(task.folder, ignore=self.course.ignore, bounds=self.course.bounds)
+            outcome = grade_one(plan, task.student, submitted)
         except SubmissionError as error:  # no date, or no folder: nbgrader drops such a submission too
-            outcome = self._without(student, StudentReport(student, "broken", broken=(str(error),)))
+            return _Landed(task.student, broken=str(error))
         except Exception as error:  # the grader's own fault: named, never a zero, and tried again in the next run
-            log.exception("grading %s failed", student)
+            log.exception("grading %s failed", task.student)
             fault = str(error) if isinstance(error, SandboxError) else f"{type(error).__name__}: {error}"
-            self._settled(StudentReport(student, "failed", faults=(fault,)))
+            return _Landed(task.student, fault=fault)
+        staged, unwritten = None, ""
+        if outcome.files:
+            mode = self.course.permissions("Autograde")
+            try:
+                place = self._place(task.student)
+                staged = publish.stage(place, outcome.files, mode=mode, groupshared=self.course.groupshared)
+            except OSError as error:  # a full disk, say: what is not published is graded again in the next run
+                unwritten = f"the graded notebook could not be written: {error.strerror or error}"
+        return _Landed(task.student, dataclasses.replace(outcome, files={}), staged, unwritten=unwritten)
+
+    def _land(self, landed: _Landed) -> None:
+        if landed.fault:
+            self._settled(StudentReport(landed.student, "failed", faults=(landed.fault,)))
             return
-        if outcome.report.status == "empty":
-            self._settled(outcome.report)
+        if landed.outcome is None:
+            report = StudentReport(landed.student, "broken", broken=(landed.broken,))
+            landed = dataclasses.replace(landed, outcome=self._without(landed.student, report))
+        assert landed.outcome is not None
+        if landed.outcome.report.status == "empty":
+            self._settled(landed.outcome.report)
         else:
-            self.waiting.append(outcome)
+            self.waiting.append(landed)
 
     def _without(self, student: str, report: StudentReport) -> Outcome:
         """The outcome of a submission of which nothing can be read: no marks, not even those of an earlier one."""
@@ -178,30 +217,32 @@ class _Run:
         if not self.waiting or not (full or due):
             return
         batch, self.waiting = self.waiting, []
+        graded = [(landed, landed.outcome) for landed in batch if landed.outcome is not None]
         standings = self.book.write(
-            self.row, [outcome.record for outcome in batch], penalty=self.penalty, create_students=self.course.create_students
-        )
-        for outcome in batch:
+            self.row, [outcome.record for _, outcome in graded], penalty=self.penalty,
+            create_students=self.course.create_students,
+        )  # fmt: skip
+        for landed, outcome in graded:
             report = self._with_standing(outcome.report, standings[outcome.student])
+            fault = landed.unwritten
             try:
-                self._publish(outcome, report)
-            except OSError as error:  # a full disk, say: what is not published is graded again in the next run
+                if not fault:
+                    self._publish(outcome, landed.staged, report)
+            except OSError as error:
                 fault = f"the graded notebook could not be written: {error.strerror or error}"
+            if fault:
                 report = dataclasses.replace(report, status="failed", faults=(*report.faults, fault))
             self._settled(report)
         self.committed = time.monotonic()
 
-    def _publish(self, outcome: Outcome, report: StudentReport) -> None:
-        place = self.course.path("autograded", outcome.student, self.row.name)
-        if outcome.files:
-            mode = self.course.permissions("Autograde")
-            staged = publish.stage(place, outcome.files, mode=mode, groupshared=self.course.groupshared)
+    def _publish(self, outcome: Outcome, staged: Path | None, report: StudentReport) -> None:
+        place = self._place(outcome.student)
+        if staged is not None:
             self.journal.forget(outcome.student)
             publish.publish(staged, place)
+            self.journal.write(outcome.student, Entry(outcome.digest, self.version, self.level, report))
         elif place.exists():
             publish.remove(place)  # an earlier submission's; nbgrader removes it too when the new one fails
-        if outcome.files:
-            self.journal.write(outcome.student, Entry(outcome.digest, self.version, self.level, report))
 
     def _with_standing(self, report: StudentReport, standing: Standing) -> StudentReport:
         return dataclasses.replace(
@@ -242,7 +283,7 @@ class _Run:
             self.level = open_session.level
             yield Plan(
                 self.course, self.row, self.masters, self.course.instructor_files(self.row.name), self.course.secret(),
-                exercises.get, open_session,
+                exercises.get, open_session, frozenset({open_session.box.descriptor}),
             )  # fmt: skip
 
     @property

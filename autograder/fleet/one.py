@@ -39,6 +39,7 @@ class Plan:
     secret: bytes = field(repr=False)
     exercises: Callable[[str], Exercise | None]
     open_session: OpenSession
+    descriptors: frozenset[int] = frozenset()  # of open files that a worker process needs for this
 
 
 @dataclass(frozen=True)

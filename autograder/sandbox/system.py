@@ -23,7 +23,7 @@ AT_FDCWD, AT_EMPTY_PATH, AT_RECURSIVE = -100, 0x1000, 0x8000
 OPEN_TREE_CLONE, MOVE_MOUNT_F_EMPTY_PATH = 1, 4
 MOUNT_ATTR_RDONLY, MOUNT_ATTR_NOSUID = 1, 2
 
-PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, PR_GET_TID_ADDRESS, PR_SET_NAME = 38, 22, 40, 15
+PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, PR_GET_TID_ADDRESS, PR_SET_NAME, PR_SET_PDEATHSIG = 38, 22, 40, 15, 1
 SECCOMP_MODE_FILTER = 2
 
 CLONE_NUMBER = {"x86_64": 56, "aarch64": 220}
@@ -97,6 +97,11 @@ def move_mount(tree: int, target: str) -> None:
 def no_new_privileges() -> None:
     """PR_SET_NO_NEW_PRIVS."""
     _check(libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0), "no_new_privs")
+
+
+def die_with_parent() -> None:
+    """PR_SET_PDEATHSIG: be killed when the thread that started this process ends."""
+    _check(libc.prctl(PR_SET_PDEATHSIG, 9, 0, 0, 0), "pdeathsig")
 
 
 def drop_capabilities() -> None:
