@@ -81,6 +81,14 @@ class Mistake:
     credit: float | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class Construction:
+    """The right formula as it is built from earlier exercises: it takes the arguments, then a function for each of these."""
+
+    blocks: tuple[Exercise, ...]
+    formula: Callable[..., Any]
+
+
 @dataclass(eq=False)
 class Exercise:
     """One function to write. Made by :func:`exercise`; calling it calls the reference."""
@@ -102,6 +110,7 @@ class Exercise:
     mistakes: list[Mistake] = field(default_factory=list)
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
+    constructions: list[Construction] = field(default_factory=list)
         """The reference's answer."""
         return self.reference(*args, **kwargs)
 
@@ -150,6 +159,35 @@ class Exercise:
 
     def draw(self, seed: int | str | bytes = PUBLIC_SEED) -> list[Drawn]:
         """All data sets under one seed. The same seed gives the same data, on every machine."""
+    def built_from(self, *blocks: Exercise) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+        """Register how the answer is built from earlier exercises, for the judge to tell whose fault a wrong one is.
+
+        The formula takes the arguments of this exercise, then one function for each of the earlier ones, under its name:
+
+            @bezier_patch.built_from(bernstein)
+            def _(u, w, P, bernstein): ...
+        """
+
+        def register(formula: Callable[..., Any]) -> Callable[..., Any]:
+            wanted = (*self.arguments, *(block.id for block in blocks))
+            names = tuple(inspect.signature(formula).parameters)
+            if not blocks or names != wanted:
+                raise ExerciseError(
+                    f"{self.id}: what it is built from takes its arguments, then one function for each earlier exercise named, "
+                    f"{wanted}; it takes {names}"
+                )
+            self.constructions.append(Construction(blocks, formula))
+            return formula
+
+        return register
+
+    def of_student(self, seed: int | bytes) -> Exercise:
+        """The same exercise with the public data of one student, from :func:`autograder.personal.seed`.
+
+        An exercise that is not personal is returned as it is: its public data are everybody's.
+        """
+        return replace(self, public_seed=seed) if self.personal and seed != self.public_seed else self
+
         return [Drawn(known.name, self._arguments_of(known, seed), known.blind) for known in self.data_sets]
 
     def _arguments_of(self, known: DataSet, seed: int | str | bytes) -> dict[str, Any]:

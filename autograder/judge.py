@@ -15,6 +15,7 @@ from autograder.comparison.answers import Numbers, Raised
 from autograder.comparison.asking import Asked, ask_all
 from autograder.comparison.gates import Gated, through_gates
 from autograder.comparison.target import Target, targets
+from autograder.diagnosis.earlier import Earlier, explained, not_written_earlier, with_earlier
 from autograder.diagnosis.explain import Explanation
 from autograder.diagnosis.figure import figure_of
 from autograder.diagnosis.ladder import (
@@ -46,6 +47,7 @@ def judge(
     public_seed: int | str | bytes = PUBLIC_SEED,
     figure: bool = True,
     search: bool = True,
+    earlier: Callable[[], Sequence[Earlier]] = tuple,
 ) -> Verdict:
     """Judge one answer to one exercise.
 
@@ -64,6 +66,9 @@ def judge(
     search : bool
         Whether the dear rungs (same set, covered, part, more, moved set) may call the function again, within the budget of
         :mod:`autograder.comparison.probing`: on the public data, and on hidden data only where such a rung earns credit.
+    earlier : callable
+        The earlier functions of the same notebook that this one calls and that are not right; asked for only where this one is
+        not right either. They may be called, for words only: no mark depends on it.
 
     Returns
     -------
@@ -74,7 +79,7 @@ def judge(
         shown = targets(exercise, public_seed)
         hidden = targets(exercise, seed, hidden=True) if seed != public_seed else ()
         asked = ask_all([*shown, *hidden], call)
-        return _verdict(exercise, asked, call, figure=figure, search=search)
+        return _verdict(exercise, asked, call, figure=figure, search=search, earlier=earlier)
     except (ExerciseError, SandboxError) as failure:
         message = say("own.failure", message=" ".join(str(failure).split())[:500])
         return Verdict(
@@ -82,13 +87,21 @@ def judge(
         )  # fmt: skip
 
 
-def _verdict(exercise: Exercise, asked: Sequence[Asked], call: Callable[..., Any], *, figure: bool, search: bool) -> Verdict:
+def _verdict(
+    exercise: Exercise,
+    asked: Sequence[Asked],
+    call: Callable[..., Any],
+    *,
+    figure: bool,
+    search: bool,
+    earlier: Callable[[], Sequence[Earlier]],
+) -> Verdict:
     gated = through_gates(asked)
     findings = [find(one) for one in gated]
     shown = [f for f in findings if not f.target.hidden]
     hidden = [f for f in findings if f.target.hidden]
     if not_written(gated):
-        return _not_run(exercise, shown)
+        return _not_run(exercise, shown, [one for one in earlier() if not one.written])
     asked_for = answerable(findings)
     recognised = _diagnose(asked_for, call if search else None)
     rung = overall(findings if all(f.right for f in asked_for) else asked_for)
@@ -99,6 +112,10 @@ def _verdict(exercise: Exercise, asked: Sequence[Asked], call: Callable[..., Any
     if fraction == 1.0 and tier != "identical":
         told = [("right", text) for part, text in parts if part in ("right", "wrong")]
         parts = [*told, ("right", say("right.accepted"))]
+    before = earlier() if fraction < 1.0 else ()
+    follows = explained(findings, before)
+    if before:
+        parts = with_earlier(parts, exercise.id, before, proved=follows)
     return Verdict(
         exercise=exercise.id,
         outcome=_outcome(fraction),
@@ -111,6 +128,7 @@ def _verdict(exercise: Exercise, asked: Sequence[Asked], call: Callable[..., Any
         figure=figure_of(worst_finding(shown), call) if figure else None,
         title=exercise.title,
         symmetries=_symmetries(findings) if tier == "relabelled" else (),
+        follows=tuple(one.exercise.id for one in before) if follows else (),
     )
 
 
@@ -181,8 +199,8 @@ def not_written(gated: Sequence[Gated]) -> bool:
     return stub or "error.missing" in keys
 
 
-def _not_run(exercise: Exercise, shown: Sequence[Finding]) -> Verdict:
-    parts: Parts = Explanation(shown, (), "error").parts()
+def _not_run(exercise: Exercise, shown: Sequence[Finding], unwritten: Sequence[Earlier]) -> Verdict:
+    parts: Parts = not_written_earlier(exercise.id, unwritten) if unwritten else Explanation(shown, (), "error").parts()
     return Verdict(
         exercise.id,
         "not run",

@@ -58,6 +58,7 @@ TEXT: dict[str, str] = {
     "right.corners": "All {count} corners are right.",
     "right.corner": "The corner {names} is right.",
     "right.corners_some": "The corners {names} are right.",
+    "right.built": "{id} does with your {names} just what it should.",
     "right.points": "Its points are right wherever your function takes its arguments.",
     "right.shape_of_answer": "The shape of your answer is right.",
     "right.entries": "{right} of {total} entries are right.",
@@ -110,6 +111,8 @@ TEXT: dict[str, str] = {
     "wrong.mask": "It says {yours} where the answer is {expected}, at {count} of {total} places.",
     "wrong.tuple": "The answer is a tuple of {expected}; your function returned {yours}.",
     "wrong.item": "Element {item} of the tuple is not right.",
+    "wrong.built": "It comes out wrong only because {names}, which it calls, is not right yet.",
+    "wrong.built_many": "It comes out wrong only because {names}, which it calls, are not right yet.",
     # --- relabellings: f∘σ is the reference
     "relabel.flip_u": "u runs backwards",
     "relabel.flip_w": "w runs backwards",
@@ -154,6 +157,10 @@ TEXT: dict[str, str] = {
     "where.line": "Line {line}: {source}",
     "where.line_only": "Line {line} of the cell that defines it.",
     # --- one thing to look at
+    "look.built": "Put {names} right and check again; {id} needs no change.",
+    "look.calls": "{id} calls {names}, which is not right yet: put that right first, then check again.",
+    "look.calls_many": "{id} calls {names}, which are not right yet: put these right first, then check again.",
+    "look.stub_earlier": "Write {names} first, then run that cell and check again.",
     "look.relabelled": "Look at which way each parameter runs in the statement: where is the point for {place}?",
     "look.swap": "Look at which parameter runs along which curve: first u along the generatrix, then w along the directrix.",
     "look.other_start": "Look at the first point, {place}: from where is the turn counted?",
@@ -205,6 +212,8 @@ TEXT: dict[str, str] = {
     "value.shape.other": "Your answer has shape {yours}, wanted {expected}.",
     # --- gates: calls that gave no answer
     "error.stub": "{id} is not written yet.",
+    "error.stub_earlier": "{id} calls {names}, which is not written yet.",
+    "error.stub_earlier_many": "{id} calls {names}, which are not written yet.",
     "error.missing": "There is no function {id} in this notebook.",
     "error.exception": "Your function stopped with {exception}: {message}",
     "error.writes": "Your function writes into the arrays it was given; these are not its own (here they are read-only).",

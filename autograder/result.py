@@ -65,7 +65,8 @@ class Verdict:
 
     ``fraction`` in [0, 1] of the exercise's points; ``tier`` the rung of the ladder (or the gate) that decided it;
     ``mistake`` the id of the recognised mistake; ``message`` what the learner reads, which is ``parts`` in order: what is
-    right, what is wrong, where, and one thing to look at.
+    right, what is wrong, where, and one thing to look at. ``follows`` names the earlier functions of the notebook whose faults
+    alone explain this one.
     """
 
     exercise: str
@@ -79,6 +80,7 @@ class Verdict:
     figure: Figure | None = None
     title: str = ""
     symmetries: tuple[str, ...] = field(default=())
+    follows: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.fraction <= 1.0:  # also refuses NaN
@@ -114,8 +116,8 @@ class Verdict:
             names = tuple(figure.get("names", ()))
             figure = Figure(**{**figure, "parameters": axes, "worst": _tuple(figure["worst"]), "names": names})
         parts = tuple((key, text) for key, text in data["parts"])
-        symmetries = tuple(data["symmetries"])
-        return cls(**{**data, "cases": cases, "figure": figure, "parts": parts, "symmetries": symmetries})
+        tuples = {key: tuple(data.get(key, ())) for key in ("symmetries", "follows")}
+        return cls(**{**data, "cases": cases, "figure": figure, "parts": parts, **tuples})
 
     @classmethod
     def from_json(cls, text: str) -> Verdict:

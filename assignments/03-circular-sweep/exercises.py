@@ -286,6 +286,12 @@ def cone_from_line(u, w, a, b):
     return dx.CircularSweep(dx.Line(a, b), "y")(u, w)
 
 
+@cone_from_line.built_from(revolve_y)
+def _(u, w, a, b, revolve_y):
+    a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    return revolve_y(u, w, lambda t: a + np.asarray(t)[..., None] * (b - a), 2 * np.pi)
+
+
 def _on_line(u, a, b):
     """x and y of the point that divides the line from a to b at u."""
     return a[0] + (b[0] - a[0]) * np.asarray(u), a[1] + (b[1] - a[1]) * np.asarray(u)
@@ -409,6 +415,13 @@ def revolve_xy_axis(u, w, curve, alpha, angle=2 * np.pi):
     Returns the points, shape of u and w together + (3,).
     """
     return dx.CircularSweep.about(curve, [0.0, 0.0, 0.0], [np.cos(alpha), np.sin(alpha), 0.0], angle)(u, w)
+
+
+@revolve_xy_axis.built_from(revolve_coord)
+def _(u, w, curve, alpha, angle, revolve_coord):
+    cos, sin = np.cos(alpha), np.sin(alpha)
+    lay = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])  # the axis onto x
+    return np.asarray(revolve_coord(u, w, lambda t: curve(t) @ lay.T, "x", angle)) @ lay
 
 
 @revolve_xy_axis.data

@@ -598,6 +598,11 @@ def _circle(r, z, start):
     return lambda t: points(r * np.cos(TURN * np.asarray(t) + start), r * np.sin(TURN * np.asarray(t) + start), z)
 
 
+@ruled_circles.built_from(ruled)
+def _(u, w, r0, r1, h, phase, ruled):
+    return ruled(u, w, _circle(r0, 0.0, 0.0), _circle(r1, h, phase))
+
+
 def _between(u, w, c0, c1):
     return dx.Ruled(c0, c1)(u, w)
 

@@ -343,6 +343,11 @@ def hermite_patch(u, w, G):
     return dx.HermitePatch(G)(u, w)
 
 
+@hermite_patch.built_from(hermite_basis)
+def _(u, w, G, hermite_basis):
+    return blended(hermite_basis(u), G, hermite_basis(w))
+
+
 @hermite_patch.data
 def lecture(rng):
     return {"G": np.array(G44, dtype=float)}
@@ -536,6 +541,12 @@ def _tangents(u, w, G):
 
 def _length(v):
     return np.linalg.norm(v, axis=-1, keepdims=True)
+
+
+@patch_normal.built_from(hermite_basis)
+def _(u, w, G, hermite_basis):
+    S_u, S_w = blended(hermite(u, 1), G, hermite_basis(w)), blended(hermite_basis(u), G, hermite(w, 1))
+    return _divided(np.cross(S_u, S_w), (S_u, S_w))
 
 
 def _divided(v, tangents):

@@ -182,6 +182,12 @@ def bezier_patch(u, w, P):
     return dx.BezierPatch(P)(u, w)
 
 
+@bezier_patch.built_from(bernstein)
+def _(u, w, P, bernstein):
+    m, n, _ = np.shape(P)
+    return np.einsum("...i,...j,ijk->...k", bernstein(m - 1, u), bernstein(n - 1, w), P)
+
+
 @bezier_patch.data
 def lecture(rng):
     return {"P": BP}
@@ -284,6 +290,11 @@ def iso_curve_net(P, u0):
     Returns the control points Q, an array of shape (n, 3), as many as the net has along w.
     """
     return np.einsum("i,ijk->jk", functions(np.shape(P)[0] - 1, u0), P)
+
+
+@iso_curve_net.built_from(bernstein)
+def _(P, u0, bernstein):
+    return np.einsum("i,ijk->jk", bernstein(np.shape(P)[0] - 1, u0), P)
 
 
 @iso_curve_net.data

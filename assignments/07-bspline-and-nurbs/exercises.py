@@ -305,6 +305,18 @@ def bspline_patch(u, w, P, k, l):
     return dx.BSplinePatch(P, k, l)(u, w)
 
 
+@bspline_patch.built_from(open_knots, bspline_basis)
+def _(u, w, P, k, l, open_knots, bspline_basis):
+    return _on_knots(u, w, P, k, l, open_knots, bspline_basis)
+
+
+def _on_knots(u, w, P, k, l, open_knots, bspline_basis):
+    m, n, _ = np.shape(P)
+    along_u = bspline_basis(np.asarray(u) * (m - k + 1), open_knots(m, k), k)
+    along_w = bspline_basis(np.asarray(w) * (n - l + 1), open_knots(n, l), l)
+    return np.einsum("...i,...j,ijk->...k", along_u, along_w, P)
+
+
 @bspline_patch.data
 def lecture(rng):
     return {"P": P65, "k": 4, "l": 3}
@@ -403,6 +415,19 @@ def nurbs_patch(u, w, P, h, k, l):
     Returns the points, shape of u and w together + (3,).
     """
     return dx.NurbsPatch(P, h, k, l)(u, w)
+
+
+@nurbs_patch.built_from(bspline_patch)
+def _(u, w, P, h, k, l, bspline_patch):
+    spread = np.repeat(np.asarray(h, dtype=float)[..., None], 3, axis=-1)
+    return np.asarray(bspline_patch(u, w, spread * P, k, l)) / bspline_patch(u, w, spread, k, l)
+
+
+@nurbs_patch.built_from(open_knots, bspline_basis)
+def _(u, w, P, h, k, l, open_knots, bspline_basis):
+    spread = np.repeat(np.asarray(h, dtype=float)[..., None], 3, axis=-1)
+    over, under = (_on_knots(u, w, net, k, l, open_knots, bspline_basis) for net in (spread * P, spread))
+    return over / under
 
 
 def _blend(u, w, values, k, l):

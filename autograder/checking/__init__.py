@@ -1,6 +1,7 @@
 """``check(f)`` in a notebook and ``judge_function(id, f)`` from Python.
 
 calling      the learner's function, called so that its errors have a line and its prints do not spill
+earlier      the earlier functions that it calls and that are not right
 signature    whether it can be called with the arguments of the exercise
 advice       the cards for everything that is not an answer: a name, a result, a missing function
 shell        IPython: showing cards, and remembering which cell failed to define a function
@@ -18,6 +19,7 @@ from autograder import card
 from autograder.catalogue import Catalogue, around
 from autograder.checking import advice, shell
 from autograder.checking.calling import Learner
+from autograder.checking.earlier import used_by
 from autograder.checking.signature import trouble_with
 from autograder.errors import CheckFailed, CourseError
 from autograder.exercise import PUBLIC_SEED, Exercise
@@ -58,7 +60,7 @@ def check(f: Callable[..., Any]) -> float:
     learner = Learner(f)
     try:
         with learner.quiet():
-            verdict = judge(exercise, learner, seed=PUBLIC_SEED)
+            verdict = judge(exercise, learner, seed=PUBLIC_SEED, earlier=lambda: used_by(f, known))
     except KeyboardInterrupt:
         _stop(advice.interrupted(exercise, learner))
     _show(exercise, f, verdict, learner)

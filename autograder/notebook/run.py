@@ -17,7 +17,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from autograder import card
+from autograder import card, uses
+from autograder.diagnosis.earlier import Earlier
 from autograder.errors import CallFailed, SandboxError
 from autograder.exercise import Exercise
 from autograder.judge import judge
@@ -105,9 +106,14 @@ def run(
                 ran.cells.append(None)
                 continue
             count += 1
+        wrong: dict[str, Verdict] = {}  # of the exercises judged so far
             name = mine.exercise if mine is not None else None
             if mine is not None and name is not None and (uses_check or exercises(name) is not None):
-                result = _judge(runner, exercises(name), name, seed)
+                before = _Before(wrong, [cell["source"] for cell, _ in learners], exercises)
+                result = _judge(runner, exercises(name), name, seed, before)
+                wrong.pop(name, None)
+                if result.verdict is not None and result.verdict.outcome in ("partial", "failed", "not run"):
+                    wrong[name] = result.verdict
                 outputs = judged_outputs(result, mine, count)
             else:
                 graded = mine is not None and mine.grade
@@ -150,7 +156,25 @@ def _display(data: Mapping[str, Any]) -> dict[str, Any]:
     return {"output_type": "display_data", "metadata": {}, "data": dict(data)}
 
 
-def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable[[str], bytes]) -> CellRun:
+@dataclass(frozen=True)
+class _Before:
+    """What stands above an exercise cell: the verdicts that are not right, and the text of the learner's cells."""
+
+    wrong: Mapping[str, Verdict]
+    sources: Sequence[str]
+    exercises: Callable[[str], Exercise | None]
+
+    def used_by(self, name: str, call: Callable[[str, tuple[Any, ...]], Any]) -> list[Earlier]:
+        """The earlier functions that are not right and that ``name`` calls."""
+        found = []
+        for id in uses.in_text(self.sources, name, self.wrong.keys()) if self.wrong else ():
+            if (exercise := self.exercises(id)) is not None:
+                written = self.wrong[id].outcome != "not run"
+                found.append(Earlier(exercise, lambda *args, id=id: call(id, args), written))
+        return found
+
+
+def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable[[str], bytes], before: _Before) -> CellRun:
     if exercise is None:
         note = f"No exercise is called {name}, so this cell could not be judged."
         return CellRun("judged", _unjudged(name, note), note)
@@ -162,13 +186,16 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
     if session is None:
         return CellRun("judged", _unjudged(name, runner.spent, exercise), runner.spent)
 
-    def call(*args: Any) -> Any:
+    def called(id: str, args: tuple[Any, ...]) -> Any:
         if runner.late:  # a function that sleeps in each of hundreds of calls must not keep the class waiting
             raise SandboxError(runner.spent)
-        return session.call(name, args)
+        return session.call(id, args)
+
+    def call(*args: Any) -> Any:
+        return called(name, args)
 
     try:
-        verdict = judge(exercise, call, seed=seed(name))
+        verdict = judge(exercise, call, seed=seed(name), earlier=lambda: before.used_by(name, called))
     except Exception as error:  # the grader's own fault is never the learner's zero
         log.exception("the judge failed on %s", name)
         note = runner.fault(f"{name}: the judge failed ({type(error).__name__}: {error})")

@@ -317,3 +317,55 @@ def test_execution_counts_go_up_and_outputs_are_harmless():
 def test_files_that_the_notebook_wrote_are_kept():
     _, ran, _ = graded(master(), cell("x = 1"))
     assert ran.files == {"made.txt": b"by the learner"}
+
+
+BASIS = """def bernstein(n, t):
+    t = np.asarray(t, float)[..., None]
+    i = np.arange(n + 1)
+    return {factor} * t**i * (1 - t)**(n - i)
+"""
+COUNT = "np.array([__import__('math').comb(n, k) for k in i])"
+PATCH = """def together(u, w, P):
+    return np.einsum('...i,...j,ijk->...k', bernstein(len(P) - 1, u), bernstein(P.shape[1] - 1, w), P)
+
+def bezier_patch(u, w, P):
+    return together(u, w, P){more}
+"""
+
+
+@pytest.mark.parametrize(
+    ("factor", "more", "follows", "said"),
+    [
+        ("1", "", ("bernstein",), "It comes out wrong only because `bernstein`, which it calls, is not right yet."),
+        ("1", " * [1, 1, -1]", (), "`bezier_patch` calls `bernstein`, which is not right yet: put that right first"),
+        (COUNT, " * [1, 1, -1]", (), ""),
+    ],
+)
+def test_a_later_exercise_that_fails_for_an_earlier_one_says_so(factor, more, follows, said):
+    """The chain from the text of two cells to the card: proved, told as a fact, or not mentioned where the earlier is right."""
+    names = ("bernstein", "bezier_patch")
+    instructors = master(*(one for name in names for one in (solution(name), a_test(f"check_{name}", f"check({name})"))))
+    built, ran, _ = graded(
+        instructors,
+        cell(BASIS.format(factor=factor), "bernstein"),
+        cell("", "check_bernstein"),
+        cell(PATCH.format(more=more), "bezier_patch"),
+        cell("", "check_bezier_patch"),
+    )
+    verdict = ran.cells[3].verdict
+    assert verdict.outcome != "passed"
+    assert verdict.follows == follows
+    shown = built.cells[3]["outputs"][0]["data"]["text/plain"]
+    assert said.replace("`", "") in shown
+    assert ("not right yet" in verdict.message) == bool(said)
+
+
+def test_the_stub_of_an_earlier_exercise_is_named():
+    """Its error comes up through the later function, which is written."""
+    instructors = master(
+        solution("bernstein"), a_test("a", "check(bernstein)"), solution("p"), a_test("b", "check(bezier_patch)")
+    )
+    stub = "def bernstein(n, t):\n    raise NotImplementedError"
+    _, ran, _ = graded(instructors, cell(stub, "bernstein"), cell("", "a"), cell(PATCH.format(more=""), "p"), cell("", "b"))
+    assert ran.cells[3].verdict.outcome == "not run"
+    assert ran.cells[3].verdict.part("wrong") == "`bezier_patch` calls `bernstein`, which is not written yet."

@@ -1,0 +1,68 @@
+"""Which earlier functions a function calls, from its text and from itself."""
+
+import numpy as np
+import pytest
+
+from autograder import uses
+
+WANTED = {"basis", "knots", "patch"}
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("def patch(u):\n    return basis(u) * 2", ("basis",)),
+        ("def patch(u):\n    def inner(t):\n        return basis(t)\n    return inner(u)", ("basis",)),
+        ("def patch(u): return np.stack([basis(t, knots(4)) for t in u])", ("basis", "knots")),
+        ("patch = np.vectorize(lambda t: basis(t))", ("basis",)),
+        ("def helper(t):\n    return basis(t)\n\ndef patch(u):\n    return helper(u)", ("basis",)),
+        ("@wrapped\ndef patch(u):\n    return list(map(basis, u))", ("basis",)),
+        ("def patch(u):\n    return patch(u - 1)", ()),  # itself
+        ("def other(u):\n    return basis(u)\n\ndef patch(u):\n    return u", ()),
+        ("basis(0.5)\n\ndef patch(u):\n    return u", ()),  # at the margin, not in the function
+        ("def patch(u):\n    return my.basis(u)  # basis", ()),  # an attribute, a comment
+        ("def patch(u):\n    '''Uses basis(t).'''\n    return 'basis'", ()),
+        ("def patch(u, basis):\n    return basis", ()),  # a parameter
+        ("def patch(u):\n    basis = u ** 2\n    return basis", ()),  # a name of its own
+        ("def patch(u):\n    return f(u, basis=3)", ()),  # a keyword
+        ("def patch(u):\n    return basis(u", ("basis",)),  # no Python, but read as far as it goes
+        ("%matplotlib inline\ndef patch(u):\n    return basis(u)", ("basis",)),
+        ("def patch(u):\n  if u:\n      return basis(u)\n    else: x", ("basis",)),
+        ("def", ()),
+        ("", ()),
+    ],
+)
+def test_names_in_the_text_of_a_function(text, found):
+    """Only what the function itself or a helper of its own uses counts."""
+    assert uses.in_text([text], "patch", WANTED) == found
+
+
+def test_a_later_cell_redefines():
+    """The last definition is the one that is called, and an earlier exercise is not looked into."""
+    cells = ["def patch(u):\n    return basis(u)", "def basis(t):\n    return knots(t)", "def patch(u):\n    return u"]
+    assert uses.in_text(cells[:2], "patch", WANTED) == ("basis",)
+    assert uses.in_text(cells, "patch", WANTED) == ()
+
+
+def test_a_hostile_text_is_only_read():
+    """Deep nesting, null bytes and a text without end cost no more than reading them."""
+    for text in ("def patch(u):\n    return " + "(" * 5000 + "basis", "def patch(u):\n    \0basis", "-" * 200_000):
+        assert uses.in_text([text], "patch", WANTED) in ((), ("basis",))
+
+
+def test_globals_of_a_function_at_hand():
+    """In a kernel the function is there, with its helpers; attributes and locals are none of its globals."""
+    names: dict = {"np": np}
+    exec(  # as a notebook does
+        "def basis(t): return t\n"
+        "def knots(m): return m\n"
+        "def helper(t): return basis(t)\n"
+        "def patch(u): return [helper(t) for t in u]\n"
+        "def local(u):\n    basis = u\n    return np.knots(basis)\n"
+        "vector = np.vectorize(lambda t: knots(t))\n",
+        names,
+    )
+    assert uses.in_function(names["patch"], WANTED) == ("basis",)
+    assert uses.in_function(names["local"], WANTED) == ()
+    assert uses.in_function(names["vector"], WANTED) == ("knots",)
+    assert uses.in_function(len, WANTED) == ()
