@@ -297,7 +297,9 @@ def _solid_spline(solid: Solid) -> BSplineHyperpatch | NurbsHyperpatch:
         return BSplineHyperpatch(net, 4, 4, 4)
     if isinstance(solid, BezierHyperpatch):
         return BSplineHyperpatch(solid.control_net, *solid.control_net.shape[:3])
-    return _clamped_solid(solid)
+    if isinstance(solid, BSplineHyperpatch | NurbsHyperpatch):
+        return _clamped_solid(solid)
+    raise ConversionError(f"a {type(solid).__name__} has no exact spline form: it is none of the library's hyperpatches.")
 
 
 def _clamped_solid(solid: BSplineHyperpatch | NurbsHyperpatch) -> BSplineHyperpatch | NurbsHyperpatch:

@@ -231,7 +231,7 @@ def _(surface: GenericSweep) -> SplineSurface:
 
 
 @spline_of.register
-def _(surface: CircularSweep) -> NurbsPatch:
+def _(surface: CircularSweep) -> SplineSurface:
     """For each piece of at most a quarter turn three rows: the curve, where its tangents meet, and the curve turned on."""
     strand = strand_of(surface.curve)
     lifted = strand.points if strand.points.shape[1] == 4 else lift(strand.points, np.ones(len(strand.points)))
@@ -258,13 +258,13 @@ def _turning(sweep: CircularSweep, angle: float, cosine: float) -> Array:
 
 @spline_of.register(Cylinder)
 @spline_of.register(Cone)
-def _(surface: Cylinder | Cone) -> NurbsPatch:
+def _(surface: Cylinder | Cone) -> SplineSurface:
     return spline_of(surface.swept()).swap()
 
 
 @spline_of.register(Sphere)
 @spline_of.register(Torus)
-def _(surface: Sphere | Torus) -> NurbsPatch:
+def _(surface: Sphere | Torus) -> SplineSurface:
     return spline_of(surface.swept())
 
 

@@ -12,14 +12,14 @@ from directrix.basis import clamped, on_knots, raised
 from directrix.checks import Array
 from directrix.conversion.forms import to_bezier, to_bspline
 from directrix.conversion.patches import spline_of, surface_from
-from directrix.conversion.splines import curve_from
+from directrix.conversion.splines import curve_from, lifted_points
 from directrix.conversion.strands import Strand, elevated
 from directrix.curves.bezier import BezierCurve
 from directrix.curves.bspline import BSplineCurve, NurbsCurve
 from directrix.curves.curve import Curve
-from directrix.curves.rational import lift
 from directrix.errors import ConversionError, KnotError, OrderError
 from directrix.knots import KnotVector
+from directrix.solids.solid import Solid
 from directrix.surfaces.bezier import BezierPatch
 from directrix.surfaces.spline import BSplinePatch, NurbsPatch
 from directrix.surfaces.surface import Surface
@@ -202,7 +202,7 @@ def _removed(points: Array, knots: KnotVector, at: float | None, times: int, tol
             f"than the tolerance {tolerance:g}.",
             error=error,
         )
-    return kept.reshape(-1, *points.shape[1:]), fewer, knots.order
+    return np.asarray(kept.reshape(-1, *points.shape[1:]), dtype=np.float64), fewer, knots.order
 
 
 def split_bezier(form: Any, u: float | None = None, w: float | None = None) -> Any:
@@ -236,6 +236,8 @@ def split_bezier(form: Any, u: float | None = None, w: float | None = None) -> A
     """
     if u is not None and w is not None:
         raise OrderError("give u or w, not both: to cut both ways cut the parts again.")
+    if isinstance(form, Solid):
+        raise ConversionError("split_bezier cuts curves and surfaces; of a solid cut the faces, solid.faces().")
     if u is not None or w is not None:
         bezier = to_bezier(form)
         if isinstance(bezier, BezierCurve):
@@ -270,7 +272,7 @@ def _places(spline: Curve | Surface, u: float | None, w: float | None) -> list[f
 
 def _nearby(knots: KnotVector, at: float) -> float:
     """The knot parameter of u = at: an existing knot if it is that to rounding."""
-    t = float(knots.stretch(np.float64(at)))
+    t = float(knots.stretch(np.array(at)))
     nearest = float(knots.values[np.abs(knots.values - t).argmin()])
     t = nearest if abs(nearest - t) <= 1e-12 * (knots.end - knots.start) else t
     if not knots.start < t < knots.end:
@@ -281,11 +283,9 @@ def _nearby(knots: KnotVector, at: float) -> float:
 def _along_axes(form: Any, changes: list[Any]) -> Any:
     """A spline with each axis of its (homogeneous) control points changed: (points, knots) -> (points, knots, order)."""
     spline = spline_of(form)
-    rational = isinstance(spline, NurbsCurve | NurbsPatch)
-    if isinstance(spline, Curve):
-        points = lift(spline.control_points, spline.weights) if rational else spline.control_points
+    points = lifted_points(spline)
+    if isinstance(spline, BSplineCurve | NurbsCurve):
         return curve_from(Strand(*changes[0](points, spline.knot_vector)))
-    net = lift(spline.control_net, spline.weights) if rational else spline.control_net
-    net, knots_u, k = changes[0](net, spline.knot_vector_u)
+    net, knots_u, k = changes[0](points, spline.knot_vector_u)
     turned, knots_w, l = changes[1](net.swapaxes(0, 1), spline.knot_vector_w)  # noqa: E741
     return surface_from(turned.swapaxes(0, 1), Strand(net, knots_u, k), Strand(turned, knots_w, l))

@@ -134,7 +134,7 @@ def _(curve: Conic) -> NurbsCurve:
 
 
 @spline_of.register
-def _(arc: Arc) -> NurbsCurve:
+def _(arc: Arc) -> SplineCurve:
     """Quadratic pieces of at most a quarter turn: ends on the arc, middle points where the end tangents meet."""
     count, cosine = pieces_of_turn(arc.end - arc.start)
     ends = arc(np.linspace(0.0, 1.0, count + 1))

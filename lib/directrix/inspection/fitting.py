@@ -14,7 +14,7 @@ from itertools import islice
 
 import numpy as np
 
-from directrix.checks import Array
+from directrix.checks import Array, Indices
 from directrix.errors import DegenerateError
 from directrix.inspection.forms import Form, IdealCone, IdealCylinder, IdealPlane, IdealSphere, IdealTorus, across
 
@@ -204,7 +204,7 @@ def _projections(points: Array) -> tuple[Array, Array, Array, Array, float]:
     return axes, frames, np.einsum("kij,nj->kni", frames, scaled), axes @ scaled.T, size
 
 
-def _ranked(rows: Array, target: Array, rho: Array) -> tuple[Array, Array]:
+def _ranked(rows: Array, target: Array, rho: Array) -> tuple[Array, Indices]:
     """Solve the linear fits rows (k, n, p) x = target (k, n); solutions and order by rms error as a distance."""
     solution = np.einsum("kpn,kn->kp", np.linalg.pinv(rows, rcond=1e-9), target)
     error = np.einsum("knp,kp->kn", rows, solution) - target

@@ -120,7 +120,8 @@ class Quadric(Frozen):
         Q = _square(matrix)
         S = Q + Q.T
         half = np.diag(S) / 2
-        return cls(*half[:3], S[0, 1], S[1, 2], S[2, 0], S[0, 3], S[1, 3], S[2, 3], half[3], **known)
+        A, B, C, K = half
+        return cls(A, B, C, S[0, 1], S[1, 2], S[2, 0], S[0, 3], S[1, 3], S[2, 3], K, **known)
 
     @classmethod
     def through(cls, points: ArrayLike) -> Quadric:
@@ -168,7 +169,8 @@ class Quadric(Frozen):
                 "(on a plane, a line or a conic section): add points off it"
             )
         best = turn.T @ (choice[-1] / sizes)
-        standard = cls(*best, -float(terms.mean(axis=0) @ best))
+        A, B, C, D, E, F, G, H, J = best
+        standard = cls(A, B, C, D, E, F, G, H, J, -float(terms.mean(axis=0) @ best))
         move = np.eye(4)
         move[:3] = np.column_stack([np.eye(3), -mean]) / scale
         known = max(ROUNDING, 8 * misfit[-1] / misfit[-2], 64 * np.finfo(float).eps * misfit[0] / misfit[-2])

@@ -115,8 +115,8 @@ def _without_center(values: Array, vectors: Array, kept: Array, b0: Array, c0: f
 
 def _central(values: Array, vectors: Array, kept: Array, c0: float, center: Array) -> Classification:
     """Σ λ_i x_i² + c0 = 0."""
-    plus = [i for i in np.nonzero(kept)[0] if values[i] > 0]
-    minus = [i for i in np.nonzero(kept)[0] if values[i] < 0]
+    plus = [i for i in range(3) if kept[i] and values[i] > 0]
+    minus = [i for i in range(3) if kept[i] and values[i] < 0]
     flat = [i for i in range(3) if not kept[i]]
     if c0 > 0 and not minus:
         return Classification("empty")
@@ -125,7 +125,7 @@ def _central(values: Array, vectors: Array, kept: Array, c0: float, center: Arra
     unit = np.sqrt(abs(c0)) if c0 else 1.0
     half = unit / np.sqrt(np.where(kept, np.abs(values), np.nan))
     plus.sort(key=lambda i: -half[i])
-    order = [*plus, *minus, *flat]
+    order = np.array([*plus, *minus, *flat], dtype=np.intp)
     a, b, c = half[order]
     e1, e3 = vectors[:, order[0]], vectors[:, order[2]]
     inf = np.inf

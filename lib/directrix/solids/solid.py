@@ -56,8 +56,8 @@ class Solid(Frozen):
         OrderError
             If an order is no whole number of at least 0.
         """
-        order = tuple(checks.derivative_order(name, n) for name, n in (("nu", nu), ("nv", nv), ("nw", nw)))
-        return self._evaluate(u, v, w, [order])[0]
+        by_u, by_v, by_w = (checks.derivative_order(name, n) for name, n in (("nu", nu), ("nv", nv), ("nw", nw)))
+        return self._evaluate(u, v, w, [(by_u, by_v, by_w)])[0]
 
     def jacobian(self, u: ArrayLike, v: ArrayLike, w: ArrayLike) -> Array:
         """The determinant of (S_u, S_v, S_w), of the parameters' shape: positive where the map is right-handed, 0 at folds."""

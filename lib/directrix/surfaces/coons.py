@@ -111,7 +111,8 @@ class Coons(Surface):
 
     def moved(self, transform: Transform) -> Coons:
         """The Coons patch of the moved curves."""
-        return Coons(*(curve.moved(transform) for curve in (self.c0, self.c1, self.d0, self.d1)), blend=self.blend)
+        c0, c1, d0, d1 = (curve.moved(transform) for curve in (self.c0, self.c1, self.d0, self.d1))
+        return Coons(c0, c1, d0, d1, blend=self.blend)
 
     def swap(self) -> Coons:
         """The same surface with u and w exchanged: c and d change places."""

@@ -124,7 +124,8 @@ class HermitePatch(TensorPatch):
     def _functions_u(self, u: Array, order: int) -> Array:
         return hermite(u, order)
 
-    _functions_w = _functions_u
+    def _functions_w(self, w: Array, order: int) -> Array:
+        return hermite(w, order)
 
     def moved(self, transform: Transform) -> HermitePatch:
         """The patch under an affine map: corners move as points, tangents and twists as vectors."""
@@ -172,8 +173,8 @@ class Ferguson(HermitePatch):
     """
 
     def __init__(self, p: ArrayLike, pu: ArrayLike, pw: ArrayLike) -> None:
-        blocks = (_corner_block(name, block) for name, block in (("p", p), ("pu", pu), ("pw", pw)))
-        super().__init__(assembled(*blocks, np.zeros((2, 2, 3))))
+        corners, tangents_u, tangents_w = (_corner_block(name, block) for name, block in (("p", p), ("pu", pu), ("pw", pw)))
+        super().__init__(assembled(corners, tangents_u, tangents_w, np.zeros((2, 2, 3))))
 
     def moved(self, transform: Transform) -> Ferguson:
         """The Ferguson patch under an affine map."""

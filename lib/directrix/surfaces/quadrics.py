@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import atan, hypot, sqrt
 
 import numpy as np
@@ -140,7 +141,7 @@ def _parallel(radii: Array, reach: float) -> list[Surface]:
     return [Plane((x, -reach, -reach), (x, reach, -reach), (x, -reach, reach)) for x in (radii[0], -radii[0])]
 
 
-PIECES = {
+PIECES: dict[str, Callable[[Array, float], list[Surface]]] = {
     "ellipsoid": lambda radii, reach: _stretched(radii, Sphere(1)),
     "hyperboloid of one sheet": _one_sheet,
     "hyperboloid of two sheets": _two_sheets,
