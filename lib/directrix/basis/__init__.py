@@ -2,10 +2,11 @@
 
 from directrix.basis.polynomial import HERMITE, bernstein, de_casteljau, hermite, lagrange, linear, monomials
 from directrix.basis.refinement import blossom, clamped, on_knots, raised
-from directrix.basis.spline import cox_de_boor, spline_local, spline_row, spline_span
+from directrix.basis.spline import SpanTable, cox_de_boor, spline_local, spline_planes, spline_row, spline_span
 
 __all__ = [
     "HERMITE",
+    "SpanTable",
     "bernstein",
     "blossom",
     "clamped",
@@ -18,6 +19,7 @@ __all__ = [
     "on_knots",
     "raised",
     "spline_local",
+    "spline_planes",
     "spline_row",
     "spline_span",
 ]

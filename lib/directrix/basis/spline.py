@@ -8,8 +8,6 @@ derivatives jump, the side of growing t is taken; at the end of the domain the s
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
 from directrix.checks import Array, Indices
@@ -21,11 +19,74 @@ def spline_span(knots: Array, order: int, t: Array) -> Indices:
     return np.asarray(np.minimum(np.searchsorted(knots, t, side="right") - 1, last))
 
 
-def spline_local(knots: Array, order: int, t: Array, derivative: int = 0) -> tuple[Indices, Array]:
-    """The k = order functions that are not zero at t, or their derivatives.
+class SpanTable:
+    """`spline_span` for many parameters at once, in a time that does not grow with the number of knots.
 
-    The triangular scheme in which no denominator can vanish (Piegl & Tiller, The NURBS Book, 2nd ed., algorithm A2.2);
-    derivatives by N'_i,q+1 = q (N_i,q / (t_(i+q) - t_i) - N_(i+1),q / (t_(i+q+1) - t_(i+1))) (eq. 2.7).
+    The domain is cut into equal cells, several for each span, and each cell remembers the span in which it begins. A parameter
+    takes the span of its cell; where this is wrong, because a knot lies inside the cell, the span is searched for.
+
+    Parameters
+    ----------
+    knots : (m + k,), non-decreasing
+    order : k = degree + 1
+
+    Examples
+    --------
+    >>> SpanTable(np.array([0.0, 0, 0, 1, 2, 2, 2]), 3)(np.array([0.5, 1.0, 2.0])).tolist()
+    [2, 3, 3]
+    """
+
+    CELLS = 16  # for each knot: of equally spaced knots hardly a parameter is searched for
+
+    def __init__(self, knots: Array, order: int) -> None:
+        self._knots, self._order = knots, order
+        self._start, self._length = knots[order - 1], knots[-order] - knots[order - 1]
+        self._count = self.CELLS * (len(knots) - 2 * order + 1)
+        self._cells = spline_span(knots, order, self._start + self._length * (np.arange(self._count + 1) / self._count))
+
+    def __call__(self, t: Array) -> Indices:
+        """The spans that hold t (n,), all in the domain."""
+        spans = self._cells[((t - self._start) / self._length * self._count).astype(np.intp)]
+        outside = np.flatnonzero((t < self._knots[spans]) | (t >= self._knots[spans + 1]))
+        spans[outside] = spline_span(self._knots, self._order, t[outside])
+        return spans
+
+
+def spline_planes(knots: Array, order: int, t: Array, span: Indices, derivative: int = 0) -> Array:
+    """The k = order functions that are not zero at each t (n,) in a known span, or their derivatives: shape (k, n).
+
+    The triangular scheme in which no denominator can vanish (Piegl & Tiller, The NURBS Book, 2nd ed., algorithm A2.2), one
+    function after the other: row j belongs to function span - k + 1 + j. Derivatives by
+    N'_i,q+1 = q (N_i,q / (t_(i+q) - t_i) - N_(i+1),q / (t_(i+q+1) - t_(i+1))) (eq. 2.7).
+
+    Examples
+    --------
+    >>> spline_planes(np.array([0.0, 0, 0, 1, 2, 2, 2]), 3, np.array([0.5, 2.0]), np.array([2, 3])).tolist()
+    [[0.25, 0.0], [0.625, 0.0], [0.125, 1.0]]
+    """
+    values = np.zeros((order, len(t)))
+    if derivative >= order:
+        return values
+    near = knots[span + np.arange(2 - order, order)[:, None]]  # the k - 1 knots up to t, and the k - 1 beyond
+    below, above = near[: order - 1], near[order - 1 :]
+    left, right = t - below, above - t
+    values[0] = 1.0
+    for q in range(1, order):  # q functions of order q become q + 1 of order q + 1
+        low, high = slice(order - 1 - q, order - 1), slice(q)
+        share = values[:q] / (above[high] - below[low])
+        if q < order - derivative:
+            np.multiply(right[high], share, out=values[:q])
+            share *= left[low]
+            values[1 : q + 1] += share
+        else:
+            share *= q
+            np.negative(share, out=values[:q])
+            values[1 : q + 1] += share
+    return values
+
+
+def spline_local(knots: Array, order: int, t: Array, derivative: int = 0) -> tuple[Indices, Array]:
+    """The k = order functions that are not zero at t, or their derivatives, by `spline_planes`.
 
     Parameters
     ----------
@@ -46,23 +107,8 @@ def spline_local(knots: Array, order: int, t: Array, derivative: int = 0) -> tup
     """
     t = np.asarray(t, dtype=np.float64)
     span = spline_span(knots, order, t)
-    first = span - order + 1
-    if derivative >= order:
-        return first, np.zeros((*t.shape, order))
-    rows = [np.ones(t.shape)]
-    for q in range(1, order - derivative):
-        carried, lower = np.zeros(t.shape), rows
-        rows = []
-        for j in range(q):
-            left, right = knots[span + 1 + j - q], knots[span + 1 + j]
-            share = lower[j] / (right - left)
-            rows.append(carried + (right - t) * share)
-            carried = (t - left) * share
-        rows.append(carried)
-    for q in range(order - derivative, order):
-        shares = [q * row / (knots[span + 1 + j] - knots[span + 1 + j - q]) for j, row in enumerate(rows)]
-        rows = [-shares[0], *(before - after for before, after in pairwise(shares)), shares[-1]]
-    return first, np.stack(rows, axis=-1)
+    planes = spline_planes(knots, order, t.ravel(), span.ravel(), derivative)
+    return span - order + 1, planes.T.reshape(*t.shape, order)
 
 
 def spline_row(knots: Array, order: int, t: Array, derivative: int = 0) -> Array:

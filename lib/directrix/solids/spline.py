@@ -14,7 +14,8 @@ from directrix.curves.rational import lift
 from directrix.knots import Knots, KnotVector, knot_vector
 from directrix.solids.solid import Orders, Solid, blended, checked_net
 from directrix.surfaces.rational import cartesian, lower
-from directrix.surfaces.spline import BSplinePatch, NurbsPatch, compiled_row, needed, row_of, speed
+from directrix.surfaces.spline import BSplinePatch, NurbsPatch
+from directrix.surfaces.support import compiled_row, compiled_sums, row_of, speed
 from directrix.surfaces.surface import Surface
 from directrix.transform import Transform
 
@@ -56,14 +57,7 @@ class SplineSolid(Solid):
 
     @cached_property
     def _compiled(self) -> NdBSpline:
-        from scipy.interpolate import NdBSpline
-
-        net, values = self._blended, []
-        for axis, knots in enumerate(self.knot_vectors):
-            first, t = needed(knots)
-            net = np.take(net, range(first, first + len(t) - knots.order), axis=axis)
-            values.append(t)
-        return NdBSpline(tuple(values), np.ascontiguousarray(net), self.degrees)
+        return compiled_sums(self._blended, self.knot_vectors)
 
     def _parts(self, u: Array, v: Array, w: Array, orders: Orders) -> list[Array]:
         """Derivatives of the blended coefficients (..., d): by rows on a grid, by local support at scattered points."""

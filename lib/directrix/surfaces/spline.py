@@ -1,34 +1,38 @@
 """B-spline and NURBS patches of orders k and l.
 
-On a grid of parameters both are matrix products over planes of coordinates (`tensor`), the rational one over four planes and a
-division. At scattered points only the k x l control points near each parameter count; there scipy's compiled tensor-product
-B-spline is used, whose cost does not grow with the net. `de_boor_point` is the slow honest way.
+On a grid of parameters both are matrix products over planes of coordinates (`tensor.Grid`), the rational one over four planes
+and a division, a block of rows at a time so that it stays in a processor's cache. At scattered points only the k x l control
+points near each parameter count (`support.ScatteredSums`), and the cost does not grow with the net. `de_boor_point` is the slow
+honest way.
 """
 
 # ruff: noqa: E741 (k and l are the orders, as the lecture names them)
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import cached_property
+from collections.abc import Callable, Sequence
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from directrix import checks
-from directrix.basis import clamped, cox_de_boor, on_knots
+from directrix.basis import clamped, cox_de_boor, on_knots, spline_span
 from directrix.checks import Array
 from directrix.curves.rational import lift
 from directrix.knots import Knots, KnotVector, knot_vector
 from directrix.surfaces.rational import cartesian, lower
-from directrix.surfaces.surface import Orders, Surface
-from directrix.surfaces.tensor import on_grid, planes, window
+from directrix.surfaces.support import ScatteredSums, compiled_row, row_of
+from directrix.surfaces.surface import Orders, Surface, row_blocks
+from directrix.surfaces.tensor import Grid, planes, window
 from directrix.transform import Transform
 
 FEW = 8  # points of a grid for which local support beats the matrix products
 
 if TYPE_CHECKING:
-    from scipy.interpolate import BSpline, NdBSpline
+    from scipy.interpolate import BSpline
+
+Sums = Callable[[tuple[int, int]], Array]  # order -> that derivative of the blended coefficients, as planes
 
 
 class SplinePatch(Surface):
@@ -76,35 +80,54 @@ class SplinePatch(Surface):
         return compiled_row(self.knot_vector_u), compiled_row(self.knot_vector_w)
 
     @cached_property
-    def _compiled(self) -> NdBSpline:
-        from scipy.interpolate import NdBSpline
+    def _sums(self) -> ScatteredSums:
+        return ScatteredSums(self._blended, self.knot_vector_u, self.knot_vector_w)
 
-        (first_u, knots_u), (first_w, knots_w) = (needed(v) for v in (self.knot_vector_u, self.knot_vector_w))
-        m, n = len(knots_u) - self.k, len(knots_w) - self.l
-        net = np.ascontiguousarray(self._blended[first_u : first_u + m, first_w : first_w + n])
-        return NdBSpline((knots_u, knots_w), net, self.degrees)
+    def _write(self, sums: Sums, orders: Orders, out: Array) -> None:
+        """Derivatives of the surface into ``out`` (len(orders), 3, ...), from those of the blended coefficients."""
+        raise NotImplementedError
 
-    def _grid(self, u: Array, w: Array, orders: Orders) -> dict[tuple[int, int], Array]:
-        """Derivatives of the blended coefficients on the grid of u (p,) and w (q,): planes (d, p, q)."""
+    def _below(self, orders: Orders) -> Orders:
+        """The derivatives of the blended coefficients that those of the surface are made of."""
+        return orders
+
+    def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        shape = np.broadcast_shapes(u.shape, w.shape)
+        u, w = np.broadcast_to(u, shape).ravel(), np.broadcast_to(w, shape).ravel()
+        out = np.empty((len(orders), 3, u.size))
+        for start in range(0, u.size, self._sums.block):
+            part = slice(start, start + self._sums.block)
+            found = self._sums(u[part], w[part], self._below(orders))
+            self._write(found.__getitem__, orders, out[..., part])
+        return [value.T.reshape(*shape, 3) for value in out]
+
+    def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        if u.size * w.size <= FEW:
+            return self._jet(u[:, None], w, orders)
+        grid = self._grid(u, w, self._below(orders))
+        out = np.empty((len(orders), 3, u.size, w.size))
+        for part in row_blocks((u.size, w.size)):
+            self._write(partial(grid, part), orders, out[:, :, part])
+        return [value.transpose(1, 2, 0) for value in out]
+
+    def _mesh_rows(self, u: Array, w: Array, orders: Orders) -> Callable[[slice], Sequence[Array]]:
+        if u.size * w.size <= FEW:
+            return super()._mesh_rows(u, w, orders)
+        grid = self._grid(u, w, self._below(orders))
+
+        def rows(part: slice) -> Sequence[Array]:
+            out = np.empty((len(orders), 3, len(u[part]), w.size))
+            self._write(partial(grid, part), orders, out)
+            return [value.transpose(1, 2, 0) for value in out]
+
+        return rows
+
+    def _grid(self, u: Array, w: Array, orders: Orders) -> Grid:
+        """What gives derivatives of the blended coefficients on rows of the grid of u (p,) and w (q,)."""
         rows = {nu: row_of(self._rows[0], self.knot_vector_u, u, nu) for nu in {nu for nu, _ in orders}}
         columns = {nw: row_of(self._rows[1], self.knot_vector_w, w, nw) for nw in {nw for _, nw in orders}}
-        return dict(zip(orders, on_grid(self._planes, rows, columns, orders), strict=True))
-
-    def _scattered(self, u: Array, w: Array, orders: Orders) -> dict[tuple[int, int], Array]:
-        """Derivatives of the blended coefficients at points: (..., d)."""
-        shape = np.broadcast_shapes(u.shape, w.shape)
-        t = np.empty((*shape, 2))
-        t[..., 0], t[..., 1] = self.knot_vector_u.stretch(u), self.knot_vector_w.stretch(w)
-        found = {}
-        for nu, nw in orders:
-            if nu >= self.k or nw >= self.l:
-                value = np.zeros((*shape, self._blended.shape[2]))
-            else:
-                scale = speed(self.knot_vector_u) ** nu * speed(self.knot_vector_w) ** nw
-                value = self._compiled(t, nu=(nu, nw))
-                value = value * scale if scale != 1 else value
-            found[nu, nw] = value
-        return found
+        end = spline_span(self.knots_u, self.k, self.knot_vector_u.stretch(u)) + 1
+        return Grid(self._planes, rows, columns, (end - self.k, end))
 
     def _part(self, corners: tuple[float, float, float, float]) -> tuple[Array, KnotVector, KnotVector]:
         """Coefficients and knots of a part; a part that begins after its end is run backwards."""
@@ -160,15 +183,9 @@ class BSplinePatch(SplinePatch):
     def _coefficients(self) -> Array:
         return self.control_net
 
-    def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        found = self._scattered(u, w, orders)
-        return [found[order] for order in orders]
-
-    def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        if u.size * w.size <= FEW:
-            return self._jet(u[:, None], w, orders)
-        found = self._grid(u, w, orders)
-        return [np.moveaxis(found[order], 0, -1) for order in orders]
+    def _write(self, sums: Sums, orders: Orders, out: Array) -> None:
+        for order, place in zip(orders, out, strict=True):
+            place[...] = sums(order)
 
     def with_net(self, net: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None) -> BSplinePatch:
         """The same orders with another net, on the same knots or on others."""
@@ -238,17 +255,11 @@ class NurbsPatch(SplinePatch):
     def _coefficients(self) -> Array:
         return lift(self.control_net, self.weights)
 
-    def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        if tuple(orders) == ((0, 0),):
-            value = self._scattered(u, w, orders)[0, 0].T
-            return [(value[:3] / value[3]).T]
-        parts = self._scattered(u, w, lower(orders))
-        return cartesian({order: np.moveaxis(value, -1, 0) for order, value in parts.items()}, orders)
+    def _below(self, orders: Orders) -> Orders:
+        return lower(orders)
 
-    def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        if u.size * w.size <= FEW:
-            return self._jet(u[:, None], w, orders)
-        return cartesian(self._grid(u, w, lower(orders)), orders)
+    def _write(self, sums: Sums, orders: Orders, out: Array) -> None:
+        cartesian({order: sums(order) for order in lower(orders)}, orders, out)
 
     def with_net(
         self, net: Array, weights: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None
@@ -327,32 +338,3 @@ def spline_part(knots: KnotVector, points: Array, u0: float, u1: float) -> tuple
         part, values = part[::-1], start + end - values[::-1]
         values[: knots.order], values[-knots.order :] = start, end
     return part, KnotVector(values, knots.order)
-
-
-def speed(knots: KnotVector) -> float:
-    """ds/du: how much faster the knot parameter runs than u."""
-    return knots.end - knots.start
-
-
-def needed(knots: KnotVector) -> tuple[int, Array]:
-    """First function and knots of those functions whose support reaches into the domain; scipy wants no others."""
-    t, k = knots.values, knots.order
-    inside = [i for i in range(knots.count) if t[i + k] > knots.start and t[i] < knots.end]
-    return inside[0], t[inside[0] : inside[-1] + k + 1]
-
-
-def compiled_row(knots: KnotVector) -> BSpline:
-    """All basis functions of a knot vector at once, as scipy's compiled B-spline with the identity for coefficients."""
-    from scipy.interpolate import BSpline
-
-    first, t = needed(knots)
-    count = len(t) - knots.order
-    return BSpline.construct_fast(t, np.eye(count, knots.count, first), knots.degree, extrapolate=True)
-
-
-def row_of(compiled: BSpline, knots: KnotVector, u: Array, order: int) -> Array:
-    """Values, or derivatives by u, of all basis functions at u (p,): shape (p, m)."""
-    if order >= knots.order:
-        return np.zeros((len(u), knots.count))
-    value = compiled(knots.stretch(u), order)
-    return np.asarray(value * speed(knots) ** order) if order else np.asarray(value)

@@ -1,13 +1,15 @@
 """What all surfaces share: checked parameters, shapes, open meshes, normals, curvature, moving and cutting.
 
 A form derives from ``Surface`` and gives one method, ``_derivative``. A tensor-product form may also give ``_jet`` (several
-derivatives at once, sharing their basis functions) and ``_mesh`` (the same on a grid, as matrix products). The caller never
-chooses: an open mesh, u of shape (n, 1) against w of shape (1, m), goes to ``_mesh`` by itself.
+derivatives at once, sharing their basis functions), ``_mesh`` (the same on a grid, as matrix products) and ``_mesh_rows``
+(some rows of a grid at a time). The caller never chooses: an open mesh, u of shape (n, 1) against w of shape (1, m), goes to
+``_mesh`` by itself.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -73,6 +75,10 @@ class Surface(Frozen):
         """Several derivatives on the grid of u (n,) against w (m,), each broadcastable to (n, m, 3)."""
         return self._jet(u[:, None], w[None, :], orders)
 
+    def _mesh_rows(self, u: Array, w: Array, orders: Orders) -> Callable[[slice], Sequence[Array]]:
+        """What gives the derivatives on some rows of the grid; override it to prepare once what all rows share."""
+        return lambda part: self._mesh(u[part], w, orders)
+
     def breaks(self) -> tuple[Array, Array]:
         """Values of u, and of w, between which the surface is smooth, 0 and 1 among them."""
         return np.array([0.0, 1.0]), np.array([0.0, 1.0])
@@ -124,16 +130,29 @@ class Surface(Frozen):
         """
         u, w = checks.parameter("u", u), checks.parameter("w", w)
         shape = checks.broadcast(u=u, w=w)
-        if np.prod(shape) <= 2 * BLOCK:
-            return self._normal(u, w)
+        if _is_open_mesh(u, w) and 0 not in shape:
+            return self._normals_on_mesh(u.ravel(), w.ravel()).reshape(*shape, 3)
+        if math.prod(shape) <= 2 * BLOCK:
+            return self._normals(u, w, self._evaluate(u, w, FIRST))
         result = np.moveaxis(np.empty((3, *shape)), 0, -1)
-        for rows in _blocks(shape):
-            result[rows] = self._normal(_rows_of(u, rows, shape), _rows_of(w, rows, shape))
+        for rows in row_blocks(shape):
+            part = _rows_of(u, rows, shape), _rows_of(w, rows, shape)
+            result[rows] = self._normals(*part, self._evaluate(*part, FIRST))
         return result
 
-    def _normal(self, u: Array, w: Array) -> Array:
-        point, tangent_u, tangent_w = self._evaluate(u, w, FIRST)
-        normal, regular = differential.unit_normal(point, tangent_u, tangent_w)
+    def _normals_on_mesh(self, u: Array, w: Array) -> Array:
+        """Normals on the grid of u (n,) and w (m,), some rows at a time."""
+        jet = self._mesh_rows(u, w, FIRST)
+        result = np.empty((3, u.size, w.size)).transpose(1, 2, 0)
+        for rows in row_blocks((u.size, w.size)):
+            here = u[rows, None]
+            full = (len(here), w.size, 3)
+            result[rows] = self._normals(here, w[None], [np.broadcast_to(value, full) for value in jet(rows)])
+        return result
+
+    def _normals(self, u: Array, w: Array, jet: Sequence[Array]) -> Array:
+        """Unit normals from point and tangents; limits where these do not span a plane."""
+        normal, regular = differential.unit_normal(*jet)
         if not regular.all():
             try:
                 normal[~regular] = differential.limit_normals(self._jet_at, *self._where(u, w, ~regular))
@@ -379,9 +398,9 @@ def _full(value: Array, shape: tuple[int, ...]) -> Array:
     return np.array(np.broadcast_to(value, shape))
 
 
-def _blocks(shape: tuple[int, ...]) -> Iterator[slice]:
+def row_blocks(shape: tuple[int, ...]) -> Iterator[slice]:
     """Slices of the first axis that hold about BLOCK parameters each."""
-    step = max(1, BLOCK * shape[0] // int(np.prod(shape)))
+    step = max(1, BLOCK * shape[0] // math.prod(shape))
     return (slice(start, start + step) for start in range(0, shape[0], step))
 
 

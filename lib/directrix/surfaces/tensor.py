@@ -7,13 +7,13 @@ planes with the coordinates moved last.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 import numpy as np
 
 from directrix import checks
-from directrix.checks import Array
+from directrix.checks import Array, Indices
 from directrix.errors import OrderError
 from directrix.surfaces.surface import Orders, Surface
 
@@ -23,23 +23,51 @@ def planes(net: Array) -> Array:
     return np.ascontiguousarray(np.moveaxis(net, -1, 0))
 
 
-def on_grid(coefficients: Array, rows: dict[int, Array], columns: dict[int, Array], orders: Orders) -> list[Array]:
-    """Derivatives on a grid, as planes.
+class Grid:
+    """Σ_i Σ_j f_i(u) g_j(w) c_ij and its derivatives on the grid of u (p,) and w (q,), as planes, any rows of it at a time.
+
+    The product along w is done once, c Gᵀ, and some rows of F times it are some rows of the grid. Of a spline only few f_i are
+    not zero on neighbouring rows, and only these are multiplied. A grid much wider than long begins with F c instead.
 
     Parameters
     ----------
     coefficients : (d, m, n) planes
     rows : order nu -> (p, m) values of the nu-th derivatives of the functions of u
     columns : order nw -> (q, n), the same for w
-    orders : pairs (nu, nw)
+    reach : (p,) first f_i that is not zero, and (p,) one more than the last; all of them if not given
 
-    Returns
-    -------
-    list of (d, p, q) arrays, one for each pair
+    Examples
+    --------
+    >>> square = Grid(np.array([[[0.0, 0.0], [0.0, 1.0]]]), {0: np.eye(2)}, {0: np.eye(2)})
+    >>> square(slice(1, 2), (0, 0)).tolist()
+    [[[0.0, 1.0]]]
     """
-    half = {nu: values @ coefficients for nu, values in rows.items()}
-    turned = {nw: np.ascontiguousarray(values.T) for nw, values in columns.items()}  # a third faster than a transposed view
-    return [half[nu] @ turned[nw] for nu, nw in orders]
+
+    WIDE = 8  # times wider than long
+
+    def __init__(
+        self,
+        coefficients: Array,
+        rows: dict[int, Array],
+        columns: dict[int, Array],
+        reach: tuple[Indices, Indices] | None = None,
+    ) -> None:
+        turned = {nw: np.ascontiguousarray(values.T) for nw, values in columns.items()}  # faster than transposed views
+        self._wide = self.WIDE * len(rows[min(rows)]) < len(columns[min(columns)])
+        self._reach = reach
+        self._u = {nu: values @ coefficients for nu, values in rows.items()} if self._wide else rows
+        self._w = turned if self._wide else {nw: coefficients @ values for nw, values in turned.items()}
+
+    def __call__(self, part: slice, order: tuple[int, int]) -> Array:
+        """Some rows of a derivative, (d, rows, q)."""
+        along_u, along_w = self._u[order[0]], self._w[order[1]]
+        if self._wide:
+            return along_u[:, part] @ along_w
+        if self._reach is None:
+            return along_u[part] @ along_w
+        first, last = self._reach
+        near = slice(first[part].min(), last[part].max())
+        return along_u[part, near] @ along_w[:, near]
 
 
 def sum_on_grid(along_u: Sequence[Array], along_w: Sequence[Array], p: int, q: int) -> Array:
@@ -55,7 +83,7 @@ def sum_on_grid(along_u: Sequence[Array], along_w: Sequence[Array], p: int, q: i
     """
     f = np.stack([np.broadcast_to(part, (p, 3)).T for part in along_u], axis=-1)
     g = np.stack([np.broadcast_to(part, (q, 3)).T for part in along_w], axis=1)
-    return np.moveaxis(f @ g, 0, -1)
+    return (f @ g).transpose(1, 2, 0)
 
 
 def at_points(net: Array, rows: Array, columns: Array) -> Array:
@@ -99,9 +127,13 @@ class TensorPatch(Surface):
         return [at_points(self._net(), rows[nu], columns[nw]) for nu, nw in orders]
 
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
+        return self._mesh_rows(u, w, orders)(slice(None))
+
+    def _mesh_rows(self, u: Array, w: Array, orders: Orders) -> Callable[[slice], Sequence[Array]]:
         rows = {nu: self._functions_u(u, nu) for nu in {nu for nu, _ in orders}}
         columns = {nw: self._functions_w(w, nw) for nw in {nw for _, nw in orders}}
-        return [np.moveaxis(value, 0, -1) for value in on_grid(self._planes, rows, columns, orders)]
+        grid = Grid(self._planes, rows, columns)
+        return lambda part: [grid(part, order).transpose(1, 2, 0) for order in orders]
 
 
 def window(u0: float, u1: float, w0: float, w1: float) -> tuple[float, float, float, float]:
