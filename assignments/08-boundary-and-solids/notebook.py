@@ -614,4 +614,4 @@ check(cylindricity)
 # * Write `corners_agree(c0, c1, d0, d1)`. How large a gap would you still forgive: a micrometre, or a share of the size?
 # * Points of a ball: the centre of the best sphere comes from a *linear* system, $|x|^2 = 2\,c\cdot x + \text{const}$. Sphericity?
 #
-# That was the last of the eight notebooks.
+# Next: **A9**, sixteen tasks further on, and the judge's own seat.

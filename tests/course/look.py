@@ -10,6 +10,7 @@ import json
 import re
 import shutil
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -38,10 +39,16 @@ def words(text: str) -> int:
     return len(re.sub(r"\$+[^$]+\$+", "formula", text).split())
 
 
-def scenes(nb: Any) -> int:
-    """3-D scenes of a notebook at most: two for a comparison, one for any other picture and for the card of a check."""
+def scenes(nb: Any, exercises: Mapping[str, Any] | None = None) -> int:
+    """3-D scenes of a notebook: two for a comparison, one for any other picture and for the card of a check that draws one.
+
+    A check of values, words or a plain net draws nothing; without the exercises every check counts.
+    """
     code = "\n".join(cell.source for cell in nb.cells if cell.cell_type == "code")
-    return sum(len(re.findall(one, code)) for one in (r"plot\.(?:view|walk)\(", r"against=", r"^ *check\("))
+    cards = re.findall(r"^ *check\((\w+)", code, re.MULTILINE)
+    if exercises is not None:
+        cards = [id for id in cards if exercises[id].judged_as or exercises[id].kind in ("surface", "curve", "solid")]
+    return sum(len(re.findall(one, code)) for one in (r"plot\.(?:view|walk)\(", r"against=")) + len(cards)
 
 
 def guesses(nb: Any) -> dict[str, int]:

@@ -1,10 +1,10 @@
 """A9: further tasks, sixteen of them, to choose from. Each stands alone: no task needs the answer of another.
 
 quadrics    quadric_value, quadric_class
-turning     screw_sweep, nurbs_revolve, revolved_line_kind
-edges       corners_agree, cubic_coons, coons_bezier_net
+turning     revolved_line_kind, screw_sweep, nurbs_revolve
 nets        bezier_split, elevate_u, uniform_bicubic, points16_to_bezier
-measuring   outward_normals, sphericity, fmill_tangents
+edges       corners_agree, cubic_coons, coons_bezier_net
+measuring   fmill_tangents, outward_normals, sphericity
 black_boxes same_surface
 
 They are imported in the order in which the notebook poses them, which is the order of the catalogue. Oracle numbers:
@@ -13,14 +13,10 @@ tests/assignments.
 
 # ruff: noqa: I001  (the order of these lines is the order of the course)
 from .quadrics import quadric_value, quadric_class
-from .turning import screw_sweep
-from .edges import corners_agree
+from .turning import revolved_line_kind, screw_sweep, nurbs_revolve
 from .nets import bezier_split, elevate_u, uniform_bicubic, points16_to_bezier
-from .edges import cubic_coons, coons_bezier_net
-from .turning import nurbs_revolve
-from .measuring import outward_normals
-from .turning import revolved_line_kind
-from .measuring import sphericity, fmill_tangents
+from .edges import corners_agree, cubic_coons, coons_bezier_net
+from .measuring import fmill_tangents, outward_normals, sphericity
 from .black_boxes import same_surface
 
 __all__ = [
