@@ -285,10 +285,18 @@ class Shell(InteractiveShell):
         updates = tuple((kind, tuple(bundle), sizes, name) for kind, bundle, sizes, name in self.recorder.updates.values())
         return tuple(outputs), updates
 
-    def rehearse(self) -> None:
+    def rehearse_showing(self, value: Any) -> None:
+        """Show a value to nobody."""
+        self.recorder.silent = True
+        try:
+            self.display_formatter.format(value)
+        finally:
+            self.recorder.silent = False
+
+    def rehearse(self, source: str) -> None:
         """Run a cell that fails, and leave no trace of it: formatting the first traceback takes long."""
         self.recorder.silent = True
-        self.run_cell("1 / 0", store_history=False, silent=True)  # type: ignore[no-untyped-call]
+        self.run_cell(source, store_history=False, silent=True)  # type: ignore[no-untyped-call]
         self.recorder.silent = False
         self.ran_into = None
         for name in ("last_type", "last_value", "last_traceback", "last_exc"):

@@ -16,6 +16,7 @@ import shutil
 import socket
 import sys
 import warnings
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,7 @@ from autograder.sandbox.guest import child, confine, seccomp
 from autograder.sandbox.guest.shell import Shell
 
 NUMPY = ("numpy.random", "numpy.linalg", "numpy.polynomial", "numpy.ma")  # numpy loads these when they are first used
-SHOWING = ("psutil",)  # plotly asks it how it was started
+SHOWING = ("psutil", "autograder")  # plotly asks the one how it was started; the other is the learners' own
 
 
 def main(arguments: str) -> None:
@@ -122,10 +123,34 @@ def _warm_up(shell: Shell, preload: list[str]) -> None:
         for name in (*NUMPY, *SHOWING, *preload):
             with contextlib.suppress(Exception):
                 importlib.import_module(name)
-        with contextlib.suppress(Exception):
-            figures, plot = sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")
-            if figures is not None:
-                figures.Figure(figures.Surface(z=[[0.0, 1.0], [1.0, 0.0]]))._repr_mimebundle_()
-            if plot is not None:
-                plot.view(lambda u, w: np.stack(np.broadcast_arrays(u, w, u * w), axis=-1))._repr_mimebundle_()
-        shell.rehearse()
+        for figure in _figures(sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")):
+            with contextlib.suppress(Exception):
+                shell.rehearse_showing(figure())
+        shell.rehearse("1 / 0")
+        if "directrix.plot" in sys.modules:  # the commonest mistakes: a traceback through the library reads its files
+            shell.rehearse("__import__('directrix.plot').plot.view(lambda u, w: u + w)")
+
+
+def _figures(go: Any, plot: Any) -> Iterator[Callable[[], Any]]:
+    """Pictures of every kind that notebooks draw: what plotly checks values with is made when it is first needed."""
+
+    def saddle(u: Any, w: Any) -> Any:
+        return np.stack(np.broadcast_arrays(u, w, u * w), axis=-1)
+
+    if go is not None:
+        grid = np.array([[0.0, 1.0], [1.0, 0.0]])
+        flat = (go.Scatter, go.Scatter3d, go.Bar, go.Mesh3d, go.Cone)
+        traces = [kind(**dict.fromkeys("xyz"[: 2 if kind in (go.Scatter, go.Bar) else 3], grid[0])) for kind in flat]
+        traces += [go.Surface(z=grid), go.Contour(z=grid), go.Heatmap(z=grid)]
+        line, axis = {"color": "black", "width": 1}, {"title": {"text": "x"}, "range": [0, 1]}
+        marked = go.Scatter(x=grid[0], y=grid[1], mode="lines+markers+text", text=["a", "b"], line=line, marker={"size": 3})
+        about = {"title": {"text": "a"}, "xaxis": axis, "yaxis": {**axis, "scaleanchor": "x"}, "width": 400, "height": 300}
+        scene = {"aspectmode": "data", "camera": {"eye": {"x": 1}}, **{f"{letter}axis": axis for letter in "xyz"}}
+        yield lambda: go.Figure([*traces, marked])
+        yield lambda: go.Figure(traces).update_layout(**about, scene=scene, margin={"l": 0}, showlegend=False)
+    if plot is not None:
+        yield lambda: plot.view(saddle)
+        yield lambda: plot.view(saddle, square=True, mark=(0.5, 0.5), normals=True, title="a saddle")
+        yield lambda: plot.view(saddle, against=saddle)
+        yield lambda: plot.view(saddle, net=saddle(*np.meshgrid([0.0, 0.5, 1.0], [0.0, 0.5, 1.0], indexing="ij")))
+        yield lambda: plot.view(lambda u: np.stack([u, u, u], axis=-1), curves={"c": saddle(grid[0], grid[1])})

@@ -236,7 +236,8 @@ def letters(points: Array, size: float, where: str, labels: tuple[str, str] = ("
         ends = np.stack([points[place] for place in places])
         # Moved off the surface, away from the middle, and over the edge, or it would hide them.
         low, high = bounds(points)
-        off = np.stack([grid_normals(points)[place] for place in places])
+        normals = grid_normals(points)
+        off = np.stack([normals[place] for place in places])
         off = off * np.where(np.sum(off * (ends - (low + high) / 2), axis=1, keepdims=True) < 0, -1.0, 1.0)
         over = ends - np.stack([points[i, 1], points[1, j]])
         long = np.linalg.norm(over, axis=1, keepdims=True)

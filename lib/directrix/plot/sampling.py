@@ -114,11 +114,12 @@ def bounds(*samplings: Array) -> tuple[Array, Array]:
     GeometryError
         If no point is finite.
     """
-    stacked = np.concatenate([np.reshape(points, (-1, 3)) for points in samplings])
-    stacked = stacked[np.isfinite(stacked).all(axis=1)]
-    if not len(stacked):
+    rows = np.concatenate([np.reshape(points, (-1, 3)).T for points in samplings], axis=1)  # one coordinate a row: read fastest
+    if not np.isfinite(rows).all():
+        rows = rows[:, np.isfinite(rows).all(axis=0)]
+    if not rows.shape[1]:
         raise GeometryError("there is nothing to draw: every point is NaN or infinite. Evaluate it at (0.5, 0.5) and look.")
-    return stacked.min(axis=0), stacked.max(axis=0)
+    return rows.min(axis=1), rows.max(axis=1)
 
 
 def _advice(points: Array, shape: tuple[int, ...]) -> str:

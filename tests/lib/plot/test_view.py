@@ -236,3 +236,25 @@ def test_a_tall_figure_is_seen_whole():
         for corner in np.ndindex(2, 2, 2):
             seen = (2 * np.array(corner) - 1) * half - centre - eye
             assert abs(seen @ up) <= np.tan(np.pi / 8) * (seen @ ahead)
+
+
+def _without_template(figure):
+    whole = figure.to_plotly_json()
+    return {**whole, "layout": {key: part for key, part in whole["layout"].items() if key != "template"}}
+
+
+@pytest.mark.parametrize("options", [{}, {"square": True, "mark": (0.5, 0.25)}, {"normals": True}, {"colour": "gaussian"}])
+def test_a_figure_is_built_unchecked_of_valid_parts(options):
+    """plotly's checks, made of the whole afterwards, find nothing and change nothing; what is added later is checked."""
+    import plotly.graph_objects as go
+
+    sphere = dx.Sphere(2)
+    pictures = [view(sphere, **options), view(sphere, against=dx.Sphere(2.1))]
+    pictures += [view(dx.Circle((0, 0, 0), 2, (0, 0, 1)), title="a circle"), view(dx.BezierPatch(np.ones((3, 3, 3))), net=True)]
+    for figure in pictures:
+        checked = go.Figure(figure.to_dict())
+        np.testing.assert_equal(go.Figure(_without_template(checked)).to_dict()["data"], figure.to_dict()["data"])
+        assert _without_template(checked)["layout"].keys() == _without_template(figure)["layout"].keys()
+        for change in (figure.update_layout, figure.data[0].update, figure.layout.update):
+            with pytest.raises(ValueError, match="nonsense"):
+                change(nonsense=1)
