@@ -5,6 +5,7 @@ inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our ow
 
     c.Directrix.level = "A"                      # isolation to require; not set: A or A-
     c.Directrix.packages = ("numpy", "scipy")    # what learners may import, beyond what exercises allow; or "all"
+    c.Directrix.salt = "surfaces 2027"           # public word for numbers of one's own; not set: one that the secret gives
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import contextlib
 import functools
 import importlib
 import logging
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -145,8 +147,8 @@ class Course:
 
     @property
     def ignore(self) -> tuple[str, ...]:
-        """Patterns of names that are not copied."""
-        return tuple(self.get("CourseDirectory", "ignore", submission.IGNORE))
+        """Patterns of names that are not copied; exercises released beside a notebook are nobody's submission."""
+        return (*self.get("CourseDirectory", "ignore", submission.IGNORE), catalogue.BESIDE)
 
     @property
     def bounds(self) -> submission.Bounds:
@@ -233,6 +235,15 @@ class Course:
     def secret(self) -> bytes:
         """The course secret."""
         return secret.course_secret(self.folder)
+
+    def salt(self) -> str:
+        """The public word of the course, ``c.Directrix.salt``, or one that comes from its secret and does not tell it."""
+        given = self.get("Directrix", "salt", None)
+        if given is None:
+            return secret.public_salt(self.secret())
+        if not re.fullmatch(r"[\w .-]{1,80}", str(given)):
+            raise CourseError(f"c.Directrix.salt must be letters, digits, blanks, dots, dashes, at most 80; got {given!r}")
+        return str(given)
 
     @property
     def room(self) -> Path:

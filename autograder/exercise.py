@@ -21,16 +21,17 @@ square, such as normals: compared one by one, as nothing is meant by moving or r
 
 from __future__ import annotations
 
-import hashlib
 import inspect
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
 
 from autograder.curvedata import CurveData, SurfaceData, as_data
 from autograder.errors import ExerciseError
+from autograder.personal import PUBLIC_SEED as PUBLIC_SEED
+from autograder.personal import generator as generator
 from autograder.result import LADDER, Tier
 
 Kind = Literal["surface", "curve", "solid", "field", "basis", "net", "value", "mask", "label"]
@@ -41,7 +42,6 @@ PARAMETERS: dict[str, tuple[str, ...]] = {
     "field": ("u", "w"),
     "mask": ("u", "w"),
 }
-PUBLIC_SEED = 0
 TOLERANCE = 1e-9
 # What an answer below "identical" earns unless the exercise says otherwise. A surface that is right but for its labels or its
 # seam shows that the form is understood; a surface that is merely near or elsewhere shows less.
@@ -60,6 +60,11 @@ class DataSet:
     draw: Callable[[np.random.Generator], Any]
     blind: bool = False
 
+    @property
+    def says(self) -> str:
+        """What it is like, in one line: the docstring of its function, or nothing."""
+        return " ".join((inspect.getdoc(self.draw) or "").split())
+
 
 @dataclass(frozen=True)
 class Drawn:
@@ -69,6 +74,7 @@ class Drawn:
     name: str
     arguments: Mapping[str, Any]
     blind: bool = False
+    says: str = ""
 
 
 @dataclass(frozen=True)
@@ -104,13 +110,16 @@ class Exercise:
     accept: Mapping[Tier, float]
     tolerance: float = TOLERANCE
     judged_as: Callable[..., Any] | None = None
+    spans: Callable[..., Any] | None = None
     allow: tuple[str, ...] = ()
     shape_credit: float = SHAPE_CREDIT
+    personal: bool = False
+    public_seed: int | bytes = PUBLIC_SEED
     data_sets: list[DataSet] = field(default_factory=list)
     mistakes: list[Mistake] = field(default_factory=list)
+    constructions: list[Construction] = field(default_factory=list)
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
-    constructions: list[Construction] = field(default_factory=list)
         """The reference's answer."""
         return self.reference(*args, **kwargs)
 
@@ -157,8 +166,6 @@ class Exercise:
 
         return register
 
-    def draw(self, seed: int | str | bytes = PUBLIC_SEED) -> list[Drawn]:
-        """All data sets under one seed. The same seed gives the same data, on every machine."""
     def built_from(self, *blocks: Exercise) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
         """Register how the answer is built from earlier exercises, for the judge to tell whose fault a wrong one is.
 
@@ -188,7 +195,12 @@ class Exercise:
         """
         return replace(self, public_seed=seed) if self.personal and seed != self.public_seed else self
 
-        return [Drawn(known.name, self._arguments_of(known, seed), known.blind) for known in self.data_sets]
+    def draw(self, seed: int | str | bytes = PUBLIC_SEED) -> list[Drawn]:
+        """All data sets under one seed. The same seed gives the same data, on every machine; ``PUBLIC_SEED`` gives the public
+        data, which are a student's own after :meth:`of_student`."""
+        if seed == PUBLIC_SEED:
+            seed = self.public_seed
+        return [Drawn(known.name, self._arguments_of(known, seed), known.blind, known.says) for known in self.data_sets]
 
     def _arguments_of(self, known: DataSet, seed: int | str | bytes) -> dict[str, Any]:
         drawn = known.draw(generator(seed, self.id, known.name))
@@ -223,8 +235,10 @@ def exercise(
     accept: Mapping[Tier, float] | None = None,
     tolerance: float = TOLERANCE,
     judged_as: Callable[..., Any] | None = None,
+    spans: Callable[..., Any] | None = None,
     allow: Sequence[str] = (),
     shape_credit: float = SHAPE_CREDIT,
+    personal: bool = False,
 ) -> Callable[[Callable[..., Any]], Exercise]:
     """Turn a reference function into an :class:`Exercise`.
 
@@ -242,10 +256,16 @@ def exercise(
         What "identical" allows, relative to the size of the reference.
     judged_as : callable, optional
         Turns an answer (a net with weights, say) into the surface that is compared: ``judged_as(answer)(u, w)``.
+    spans : callable, optional
+        Where the pieces of a map in pieces meet: takes the arguments of the data and returns, for each parameter, the places
+        from 0 to 1. With it a learner is told in which spans a B-spline patch is right.
     allow : sequence of str
         Packages beyond numpy and plotly that learners may import, ``("scipy",)``.
     shape_credit : float
         The share kept by a function that is right for some shapes of input but not for others.
+    personal : bool
+        Whether the data that a student is shown are his own, drawn from his id and a public word of the course (see
+        :mod:`autograder.personal`). Hidden data are each student's own in any case.
 
     Raises
     ------
@@ -273,18 +293,11 @@ def exercise(
         defaults = {key: value.default for key, value in given.items() if value.default is not value.empty}
         return Exercise(
             id=name, reference=reference, points=float(points), title=title, kind=kind, statement=statement,
-            arguments=arguments, defaults=defaults, accept=dict(accept or {}), tolerance=tolerance, judged_as=judged_as,
-            allow=tuple(allow), shape_credit=shape_credit,
+            arguments=arguments, defaults=defaults, accept=dict(accept or {}), tolerance=tolerance, judged_as=judged_as, spans=spans,
+            allow=tuple(allow), shape_credit=shape_credit, personal=personal,
         )  # fmt: skip
 
     return declare
-
-
-def generator(seed: int | str | bytes, *names: str) -> np.random.Generator:
-    """A random generator that depends on the seed and the names, and on nothing else."""
-    key = seed if isinstance(seed, bytes) else str(seed).encode()
-    digest = hashlib.sha256(b"\x00".join([key, *(name.encode() for name in names)])).digest()
-    return np.random.default_rng(int.from_bytes(digest, "big"))
 
 
 def _frozen(value: Any) -> Any:

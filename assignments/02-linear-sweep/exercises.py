@@ -131,7 +131,7 @@ def _(a, b):
 # A2.2 ------------------------------------------------------------------------------------------------------------------------
 
 
-@exercise(points=6, title="Linear sweep by direction and distance", kind="surface")
+@exercise(points=6, title="Linear sweep by direction and distance", kind="surface", personal=True)
 def linear_sweep(u, w, curve, direction, d):
     """Return the points of the surface that the curve sweeps when it moves the distance d along the direction.
 
@@ -163,6 +163,13 @@ def _times(parameter, vector):
 @linear_sweep.data
 def lecture(rng):
     return {"curve": arc, "direction": [1.0, 2.0, 2.0], "d": 6.0}
+
+
+@linear_sweep.data
+def yours(rng):
+    """your own arrow"""
+    # The notebook draws the same numbers in the same order, and shows them.
+    return {"curve": arc, "direction": rng.integers(1, 6, 3).astype(float), "d": float(rng.integers(2, 7))}
 
 
 @linear_sweep.data

@@ -19,6 +19,9 @@
 # Run the next cell first.
 
 # %% setup=true
+from autograder import personal
+
+personal.course("workbook")  # your own numbers come from this word and your id
 
 # %% [markdown]
 # ## 1 · What goes into a sweep?
@@ -186,6 +189,28 @@ with once_written():
     holds("every point travels d", way, 6)
     holds("the length of the direction does not matter", sweep, linear_sweep(u, w, arc, (2, 4, 4), 6))
     print("one point has shape", np.shape(linear_sweep(0.5, 0.5, arc, (1, 2, 2), 6)))
+
+# %% [markdown]
+# ### An arrow of your own
+#
+# Type your id in this course: everybody gets another arrow. `check` knows yours too, as the data `yours`.
+#
+# `arc` starts in $(2, 1, 0)$. Run the cell, and work out by hand where that point arrives. Whose point travels
+# further, yours or your neighbour's: who has the longer direction, or who has the larger $d$?
+
+# %%
+student = ""  # your id, between the quotation marks
+
+rng = personal.numbers("linear_sweep", student)
+direction, d = rng.integers(1, 6, 3), rng.integers(2, 7)
+print("Your direction is", direction, "and your d is", d)
+
+# %%
+arrival = None  # for example (2, 4, 4)
+
+# %%
+with once_written():
+    reveal(arrival, linear_sweep(0, 1, arc, direction, d))
 
 # %% check="linear_sweep"
 check(linear_sweep)

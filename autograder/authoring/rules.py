@@ -20,7 +20,7 @@ from autograder.curvedata import CurveData, SurfaceData
 from autograder.errors import CourseError
 from autograder.exercise import PUBLIC_SEED, Drawn, Exercise
 from autograder.judge import judge
-from autograder.notebook import source
+from autograder.notebook import own, source
 
 SEEN = 0.01  # relative to the size: five times what the ladder still calls "close"
 SAME = 1e-9
@@ -83,7 +83,10 @@ def _of_notebook(assignment: Assignment) -> Iterator[Breach]:
         yield Breach(assignment.folder.name, "notebook", said, to_do, must=False)
         return
     try:
-        source.build(assignment)
+        built = source.build(assignment)
+        code = [(cell.source, bool(cell.metadata.get("nbgrader", {}).get("locked"))) for cell in built.cells]
+        for said in own.without_word(code, assignment.exercises.values()):
+            yield Breach(assignment.folder.name, "notebook", said, "each student's numbers are drawn from that word and the id")
     except CourseError as error:
         yield Breach(assignment.folder.name, "notebook", str(error), "mend that cell of the notebook source")
 

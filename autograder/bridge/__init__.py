@@ -28,6 +28,7 @@ AUTOGRADE = (
 )
 GENERATE = (
     "autograder.bridge.release.CheckExercises",
+    "autograder.bridge.release.WriteCourse",
     *(
         f"nbgrader.preprocessors.{name}"
         for name in (

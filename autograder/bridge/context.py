@@ -14,6 +14,7 @@ from typing import Any
 from autograder.course import Course
 from autograder.exercise import Exercise
 from autograder.gradebook import AssignmentRow
+from autograder.notebook import own
 from autograder.notebook.master import Master
 from autograder.notebook.rebuild import Rebuilt, rebuild
 from autograder.notebook.run import Ran, run
@@ -97,7 +98,12 @@ class Context:
         def seed(exercise: str) -> bytes:
             return hidden_seed(secret, self.student, exercise, submission)
 
-        return run(built, lambda: open_session(files), exercises.get, seed, uses_check=self.master.uses_check)
+        find = own.of_student(exercises.get, self.master, self.student)
+        return run(built, lambda: open_session(files), find, seed, uses_check=self.master.uses_check)
+
+    def other_id(self, built: Rebuilt) -> str | None:
+        """A sentence where the notebook draws its numbers for somebody else."""
+        return own.other_id(built.cells, self.exercises().values(), self.student)
 
     def exercises(self) -> dict[str, Exercise]:
         """The exercises that the assignment poses, in any of its notebooks."""

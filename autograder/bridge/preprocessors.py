@@ -39,6 +39,8 @@ class Rebuild(NbGraderPreprocessor):  # type: ignore[misc]
         built = context.rebuilt(keep_outputs=not ClearOutput(parent=self.parent).enabled)
         for name in context.drop_links():
             self.log.warning("%s: %s is a link; it was not copied", context.student, name)
+        if (other := context.other_id(built)) is not None:
+            self.log.warning("%s: %s.ipynb: %s", context.student, context.notebook, other)
         for note in built.notes:
             self.log.warning("%s: %s: %s", context.student, note.cell or context.notebook, note.text)
         return _node(built.notebook), resources

@@ -15,6 +15,7 @@ from nbgrader.preprocessors import NbGraderPreprocessor
 from autograder.course import Course
 from autograder.errors import CourseError
 from autograder.exercise import Exercise
+from autograder.notebook import own
 from autograder.notebook.master import checked_name
 
 PARSING = (SyntaxError, ValueError, RecursionError, MemoryError)
@@ -31,10 +32,24 @@ class CheckExercises(NbGraderPreprocessor):  # type: ignore[misc]
         return nb, resources
 
 
+class WriteCourse(NbGraderPreprocessor):  # type: ignore[misc]
+    """Writes the public word of the course where a notebook says of which course it is."""
+
+    def preprocess(self, nb: Any, resources: Any) -> tuple[Any, Any]:
+        """The notebook with the word in ``personal.course("...")``."""
+        written = [cell for cell in nb.cells if cell.cell_type == "code" and own.salt_in(cell.source) is not None]
+        if written:
+            salt = Course(self.parent.parent.coursedir.root, config=self.config).salt()
+            for cell in written:
+                cell.source = own.with_salt(cell.source, salt)
+        return nb, resources
+
+
 def faults(cells: list[Any], find: Callable[[str], Exercise | None]) -> Iterator[str]:
     """What is wrong with the graded cells of a notebook that takes ``check`` from the autograder; others are not ours."""
     if not any(cell.cell_type == "code" and _imports_check(cell.source) for cell in cells):
         return
+    posed = []
     for cell in cells:
         graded = cell.metadata.get("nbgrader", {})
         if cell.cell_type != "code" or not graded.get("grade") or graded.get("solution") or not _calls_check(cell.source):
@@ -48,6 +63,14 @@ def faults(cells: list[Any], find: Callable[[str], Exercise | None]) -> Iterator
             yield f"{place} checks {name!r}, but no exercise has that name"
         elif float(graded.get("points", 0)) != exercise.points:
             yield f"{place} gives {graded.get('points')} points, but the exercise {name!r} is worth {exercise.points:g}"
+        posed += [exercise] if exercise is not None else []
+    code = [(cell.source, _locked(cell)) for cell in cells if cell.cell_type == "code"]
+    yield from own.without_word(code, posed)
+
+
+def _locked(cell: Any) -> bool:
+    graded = cell.metadata.get("nbgrader", {})
+    return bool(graded.get("locked") or graded.get("grade")) and not graded.get("solution")
 
 
 def _calls_check(source: str) -> bool:

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from autograder import card
+from autograder import card, personal
 from autograder.catalogue import Catalogue, around
 from autograder.checking import advice, shell
 from autograder.checking.calling import Learner
@@ -54,6 +54,7 @@ def check(f: Callable[..., Any]) -> float:
     exercise = known.get(advice.name_of(f)) if callable(f) else None
     if exercise is None:
         _stop(advice.no_exercise(f, known, shell.defined()))
+    exercise = exercise.of_student(personal.seed_here())
     trouble = trouble_with(exercise, f)
     if trouble is not None and not trouble.callable:
         _stop(trouble.card(exercise))
@@ -90,7 +91,7 @@ def exercises() -> Catalogue:
 
 def _show(exercise: Exercise, f: Callable[..., Any], verdict: Verdict, learner: Learner) -> None:
     shown = card.of(verdict, notes=learner.notes())
-    more = []
+    more = [advice.whose_numbers(personal.student_here())] if exercise.personal else []
     stale = shell.failure_of(exercise.id)
     if stale is not None:
         more.append(advice.older_version(exercise.id, stale))

@@ -75,6 +75,13 @@ def older_version(name: str, failure: Failure) -> tuple[str, str]:
     )
 
 
+def whose_numbers(student: str) -> tuple[str, str]:
+    """For an exercise with numbers of one's own: whose they are."""
+    if student:
+        return "Your own numbers", f"Some of these data are those of {student}: somebody else has others."
+    return "Everybody's numbers", "These data are the same for all. For your own, type your id in the cell that asks for it."
+
+
 def interrupted(exercise: Exercise, learner: Learner) -> Card:
     """The card where the learner stopped the kernel while the function ran."""
     parts = (

@@ -15,7 +15,7 @@ from autograder.errors import SubmissionError
 from autograder.exercise import Exercise
 from autograder.fleet.result import CellReport, Status, StudentReport
 from autograder.gradebook import AssignmentRow, NotebookMarks, Record
-from autograder.notebook import limit
+from autograder.notebook import limit, own
 from autograder.notebook.marks import Mark
 from autograder.notebook.master import Master, MasterCell
 from autograder.notebook.rebuild import Rebuilt, rebuild
@@ -115,6 +115,9 @@ class _Work:
         annotate(built, given)
         self.marks[name] = NotebookMarks(given, unanswered(built))
         self.notes += [f"{name}.ipynb: {note.cell + ': ' if note.cell else ''}{note.text}" for note in built.notes]
+        posed = [found for cell in master.graded if cell.exercise and (found := self.plan.exercises(cell.exercise)) is not None]
+        if (other := own.other_id(built.cells, posed, self.student)) is not None:
+            self.notes.append(f"{name}.ipynb: {other}")
         if ran.restarts > 0:
             ended = "a cell ended its process" if ran.restarts == 1 else f"cells ended their process {ran.restarts} times"
             self.notes.append(f"{name}.ipynb: {ended}; the cells after it ran in a fresh one")
@@ -132,7 +135,8 @@ class _Work:
             return hidden_seed(self.plan.secret, self.student, exercise, submission)
 
         files = {**self.files, **self.plan.instructor_files}
-        ran = run(built, lambda: self.plan.open_session(files), self.plan.exercises, seed, uses_check=master.uses_check)
+        find = own.of_student(self.plan.exercises, master, self.student)
+        ran = run(built, lambda: self.plan.open_session(files), find, seed, uses_check=master.uses_check)
         kept = {path: data for path, data in ran.files.items() if harmless(path) and path not in self.plan.instructor_files}
         self.files = beside(self.files, kept)
         self.files = beside({**self.files, **kept}, self.plan.instructor_files)

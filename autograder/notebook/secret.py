@@ -42,6 +42,14 @@ def course_secret(root: Path) -> bytes:
     return value
 
 
+def public_salt(secret: bytes) -> str:
+    """The public word of a course, from which numbers of one's own are drawn: HMAC-SHA256 under the secret, cut to 16 digits.
+
+    It is printed in every released notebook. It tells nothing of the secret, or of the seeds of hidden data.
+    """
+    return hmac.new(secret, b"directrix, the public word of a course", hashlib.sha256).hexdigest()[:16]
+
+
 def _make(path: Path) -> None:
     """Write a new secret beside its place and link it there, so that no reader ever meets half of it."""
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)

@@ -1,5 +1,6 @@
-"""``autograder`` as a learner's notebook finds it while the grader runs it: ``check`` only, and it does not judge."""
+"""``autograder`` as a learner's notebook finds it where it is graded: ``personal``, and a ``check`` that does not judge."""
 
+import importlib
 from typing import Any
 
 __all__ = ["check"]
@@ -12,6 +13,10 @@ def check(function: object = None, *_: Any, **__: Any) -> None:
 
 
 def __getattr__(name: str) -> Any:
+    if name == "personal":
+        return importlib.import_module("autograder.personal")
     if name.startswith("__"):
         raise AttributeError(f"module 'autograder' has no attribute {name!r}")
-    raise ImportError(f"autograder.{name} is not there while the grader runs a notebook: only autograder.check is")
+    raise ImportError(
+        f"autograder.{name} is not there while the grader runs a notebook: only autograder.check and autograder.personal are"
+    )

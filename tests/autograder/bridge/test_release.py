@@ -67,4 +67,4 @@ def test_ours_comes_before_nbgraders_own_preprocessors_which_stay_as_they_are():
     from autograder.bridge import GENERATE
 
     stock = [preprocessor.__name__ for preprocessor in GenerateAssignment.preprocessors.default()]
-    assert [name.rpartition(".")[2] for name in GENERATE] == ["CheckExercises", *stock]
+    assert [name.rpartition(".")[2] for name in GENERATE] == ["CheckExercises", "WriteCourse", *stock]
