@@ -1,11 +1,14 @@
 """An nbgrader course: its folders, its settings and its exercises, read from ``nbgrader_config.py`` without nbgrader.
 
 Settings keep nbgrader's names and meanings; a setting may be given under the class that has it or under a class that it
-inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our own are under ``c.Directrix``:
+inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our own are these:
 
     c.Directrix.level = "A"                      # isolation to require; not set: A or A-
     c.Directrix.packages = ("numpy", "scipy")    # what learners may import, beyond what exercises allow; or "all"
     c.Directrix.salt = "surfaces 2027"           # public word for numbers of one's own; not set: one that the secret gives
+    c.Sandbox.tests = "calibrated"               # ordinary test cells apart from learners' code where they can be; or insist:
+                                                 # "apart", "shared"
+    c.Sandbox.withhold = ["answers"]             # modules that test cells may import and learners may not
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ import importlib
 import logging
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -35,10 +38,11 @@ from autograder.catalogue import Catalogue
 from autograder.errors import CourseError
 from autograder.exercise import Exercise
 from autograder.gradebook import AssignmentRow, Gradebook, Penalty
-from autograder.notebook import secret, submission
+from autograder.notebook import apart, secret, submission
+from autograder.notebook.apart import Script
 from autograder.notebook.master import Master
 from autograder.notebook.rebuild import MISSING
-from autograder.notebook.session import Packages
+from autograder.notebook.session import Opener, Packages
 
 CONFIG = "nbgrader_config"
 # Sections that nbgrader's classes inherit settings from, the nearest first.
@@ -211,6 +215,41 @@ class Course:
         """Packages that learners may import beyond numpy, plotly and what exercises allow."""
         given = self.get("Directrix", "packages", ())
         return "all" if given in ("*", "all") else tuple(given)
+
+    @property
+    def tests(self) -> str:
+        """How ordinary test cells run, ``c.Sandbox.tests``: "calibrated" (the default), "apart" or "shared"."""
+        return str(self.get("Sandbox", "tests", "calibrated"))
+
+    @property
+    def withhold(self) -> tuple[str, ...]:
+        """Modules that test cells may import and learners may not, ``c.Sandbox.withhold``."""
+        given = self.get("Sandbox", "withhold", ())
+        return (given,) if isinstance(given, str) else tuple(map(str, given))
+
+    def scripts(self, of: AssignmentRow, masters: Mapping[str, Master], opener: Opener) -> dict[str, Script]:
+        """How the ordinary test cells of each notebook run, tried with the solutions in ``source/`` where that is not known.
+
+        Raises
+        ------
+        CourseError
+            If the course insists on what a cell cannot do.
+        """
+        files = self.instructor_files(of.name)
+        found: dict[str, Script] = {}
+        for name, master in masters.items():
+            names = {cell.exercise for cell in master.graded if cell.exercise}
+            found[name] = apart.prepare(
+                self.path("source", ".", of.name) / f"{name}.ipynb",
+                master,
+                judged={exercise for exercise in names if master.uses_check or self.exercise(exercise) is not None},
+                open_session=lambda: opener.trusted(files),
+                open_pair=lambda: opener.pair(files),
+                mode=self.tests,
+                memory=self.room / "apart" / f"{of.name}.{name}.json",
+                settings=[self.packages, self.withhold, self.timeout],
+            )
+        return found
 
     def penalty(self) -> Penalty | None:
         """The late policy: nbgrader's own two, or the course's plug-in (which loads nbgrader, being a class of it)."""

@@ -82,6 +82,7 @@ def summary(graded: GradeReport) -> dict[str, Any]:
         "looks": {student.student: student.looks for student in graded.students if student.looks},
         "broken": list(graded.broken),
         "faults": list(graded.faults),
+        "shared": dict(graded.shared),
     }
 
 
@@ -94,6 +95,9 @@ def table(graded: GradeReport) -> Group:
     for heading, lines in (("Could not be read", graded.broken), ("The grader's own failures", graded.faults)):
         if lines:
             shown += ["", Text(heading, style="bold red"), *(Padding(Text(plain(line)), (0, 0, 0, 2)) for line in lines)]
+    if graded.shared:
+        shown += ["", Text("Tests that ran in the learners' own process, where they can be tampered with", style="bold yellow")]
+        shown += [Padding(Text(plain(f"{cell}: {why}")), (0, 0, 0, 2)) for cell, why in graded.shared.items()]
     shown.append(Text(_footer(graded), style="dim"))
     return Group(*shown)
 

@@ -15,11 +15,12 @@ from autograder.course import Course
 from autograder.exercise import Exercise
 from autograder.gradebook import AssignmentRow
 from autograder.notebook import own
+from autograder.notebook.apart import Apart
 from autograder.notebook.master import Master
 from autograder.notebook.rebuild import Rebuilt, rebuild
 from autograder.notebook.run import Ran, run
 from autograder.notebook.secret import hidden_seed
-from autograder.notebook.session import OpenSession, opened
+from autograder.notebook.session import Opener, opened
 from autograder.notebook.submission import beside, digest, harmless, parse, read_file, read_folder
 from autograder.notebook.timestamps import FILE, handed_in
 
@@ -98,8 +99,16 @@ class Context:
         def seed(exercise: str) -> bytes:
             return hidden_seed(secret, self.student, exercise, submission)
 
-        find = own.of_student(exercises.get, self.master, self.student)
-        return run(built, lambda: open_session(files), find, seed, uses_check=self.master.uses_check)
+        script = self.course.scripts(self.row, {self.notebook: self.master}, open_session)[self.notebook]
+        apart = Apart(script, lambda: open_session.pair(files))
+        return run(
+            built,
+            lambda: open_session(files),
+            own.of_student(exercises.get, self.master, self.student),
+            seed,
+            uses_check=self.master.uses_check,
+            apart=apart,
+        )
 
     def other_id(self, built: Rebuilt) -> str | None:
         """A sentence where the notebook draws its numbers for somebody else."""
@@ -129,14 +138,14 @@ class Context:
             path.write_bytes(data)
 
 
-_sandboxes: weakref.WeakKeyDictionary[Any, OpenSession] = weakref.WeakKeyDictionary()
+_sandboxes: weakref.WeakKeyDictionary[Any, Opener] = weakref.WeakKeyDictionary()
 
 
-def _sandbox(converter: Any, course: Course, exercises: Mapping[str, Exercise]) -> OpenSession:
+def _sandbox(converter: Any, course: Course, exercises: Mapping[str, Exercise]) -> Opener:
     """One sandbox for each of nbgrader's runs, started with its first notebook and closed with its converter."""
     if converter not in _sandboxes:
         stack = contextlib.ExitStack()
-        opening = opened(exercises.values(), course.packages, course.level, course.timeout)
+        opening = opened(exercises.values(), course.packages, course.level, course.timeout, course.withhold)
         _sandboxes[converter] = stack.enter_context(opening)
         weakref.finalize(converter, stack.close)
     return _sandboxes[converter]

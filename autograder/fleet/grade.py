@@ -131,6 +131,7 @@ class _Run:
         self.waiting: list[_Landed] = []
         self.committed = time.monotonic()
         self.total = 0
+        self.shared: dict[str, str] = {}  # test cells that share the learner's process, with the reason
 
     def grade(self, submissions: Mapping[str, Path], workers: int, *, force: bool) -> None:
         """Grade what is new or changed, ``workers`` at a time."""
@@ -279,11 +280,14 @@ class _Run:
     def _plan(self) -> Iterator[Plan]:
         checked = [cell.exercise for master in self.masters.values() for cell in master.graded if cell.exercise]
         exercises = {name: found for name in checked if (found := self.course.exercise(name)) is not None}
-        with opened(exercises.values(), self.course.packages, self.required, self.course.timeout) as open_session:
+        course = self.course
+        with opened(exercises.values(), course.packages, self.required, course.timeout, course.withhold) as open_session:
             self.level = open_session.level
+            scripts = course.scripts(self.row, self.masters, open_session)
+            self.shared = {f"{name}.ipynb: {cell}": why for name in scripts for cell, why in scripts[name].shared.items()}
             yield Plan(
-                self.course, self.row, self.masters, self.course.instructor_files(self.row.name), self.course.secret(),
-                exercises.get, open_session, frozenset({open_session.box.descriptor}),
+                course, self.row, self.masters, course.instructor_files(self.row.name), course.secret(),
+                exercises.get, open_session, scripts, frozenset({open_session.box.descriptor}),
             )  # fmt: skip
 
     @property
@@ -302,7 +306,7 @@ class _Run:
             students.append(dataclasses.replace(full, available=self.available, name=names.get(student, "")))
         titles = {exercise.id: exercise.title for exercise in self._exercises()}
         course = self.course.id or self.course.folder.name
-        return GradeReport(course, self.row.name, self.level, tuple(students), seconds, self.available, titles)
+        return GradeReport(course, self.row.name, self.level, tuple(students), seconds, self.available, titles, self.shared)
 
     def _exercises(self) -> Iterator[Exercise]:
         for master in self.masters.values():

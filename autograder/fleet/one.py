@@ -16,13 +16,14 @@ from autograder.exercise import Exercise
 from autograder.fleet.result import CellReport, Status, StudentReport
 from autograder.gradebook import AssignmentRow, NotebookMarks, Record
 from autograder.notebook import limit, own
+from autograder.notebook.apart import Apart, Script
 from autograder.notebook.marks import Mark
 from autograder.notebook.master import Master, MasterCell
 from autograder.notebook.rebuild import Rebuilt, rebuild
 from autograder.notebook.run import Ran, run
 from autograder.notebook.score import annotate, marks, unanswered
 from autograder.notebook.secret import hidden_seed
-from autograder.notebook.session import OpenSession
+from autograder.notebook.session import Opener
 from autograder.notebook.submission import Submission, beside, digest, harmless, parse
 from autograder.notebook.timestamps import handed_in
 from autograder.notebook.written import dumps
@@ -38,7 +39,8 @@ class Plan:
     instructor_files: Mapping[str, bytes]
     secret: bytes = field(repr=False)
     exercises: Callable[[str], Exercise | None]
-    open_session: OpenSession
+    open_session: Opener
+    scripts: Mapping[str, Script] = field(default_factory=dict)  # how ordinary test cells run, by notebook
     descriptors: frozenset[int] = frozenset()  # of open files that a worker process needs for this
 
 
@@ -135,8 +137,16 @@ class _Work:
             return hidden_seed(self.plan.secret, self.student, exercise, submission)
 
         files = {**self.files, **self.plan.instructor_files}
-        find = own.of_student(self.plan.exercises, master, self.student)
-        ran = run(built, lambda: self.plan.open_session(files), find, seed, uses_check=master.uses_check)
+        script = self.plan.scripts.get(master.notebook)
+        apart = Apart(script, lambda: self.plan.open_session.pair(files)) if script is not None else None
+        ran = run(
+            built,
+            lambda: self.plan.open_session(files),
+            own.of_student(self.plan.exercises, master, self.student),
+            seed,
+            uses_check=master.uses_check,
+            apart=apart,
+        )
         kept = {path: data for path, data in ran.files.items() if harmless(path) and path not in self.plan.instructor_files}
         self.files = beside(self.files, kept)
         self.files = beside({**self.files, **kept}, self.plan.instructor_files)

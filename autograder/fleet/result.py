@@ -76,7 +76,11 @@ class StudentReport:
 
 @dataclass(frozen=True)
 class GradeReport:
-    """A class graded. Students in the order of their ids."""
+    """A class graded. Students in the order of their ids.
+
+    ``shared`` names the ordinary test cells that had to run in the learner's own process, where they could be tampered with,
+    each with the reason; empty too when nothing was run.
+    """
 
     course: str
     assignment: str
@@ -85,6 +89,7 @@ class GradeReport:
     seconds: float = 0.0
     available: float = 0.0
     titles: Mapping[str, str] = field(default_factory=dict)
+    shared: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def graded(self) -> tuple[StudentReport, ...]:
@@ -112,7 +117,7 @@ class GradeReport:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain lists, dicts, strings and numbers."""
-        return {**asdict(self), "titles": dict(self.titles), "failures": list(self.failures)}
+        return {**asdict(self), "titles": dict(self.titles), "shared": dict(self.shared), "failures": list(self.failures)}
 
     def to_json(self, **options: Any) -> str:
         """Strict JSON (no NaN)."""

@@ -4,6 +4,8 @@ Ordinary cells are sent to the learner's session one after the other. An exercis
 from the instructor's copy, the judge calls the learner's function through the session, and the outputs are written here. So the
 only way to its marks is to compute the right thing.
 
+An instructor's ordinary test cell runs in a process of its own where that was found to give the same marks (``apart``).
+
 When a cell ends its process (an endless loop, ``os._exit``, too much memory) a fresh session runs the earlier good cells again,
 without their outputs, and the notebook goes on: a submission loses what cannot be run, and no more.
 """
@@ -23,6 +25,7 @@ from autograder.errors import CallFailed, SandboxError
 from autograder.exercise import Exercise
 from autograder.judge import judge
 from autograder.notebook import limit, safe
+from autograder.notebook.apart import Apart, Tests
 from autograder.notebook.marks import CellRun
 from autograder.notebook.master import MasterCell
 from autograder.notebook.rebuild import Rebuilt
@@ -78,6 +81,7 @@ def run(
     seed: Callable[[str], bytes],
     *,
     uses_check: bool = False,
+    apart: Apart | None = None,
     seconds: float = MAX_SECONDS,
 ) -> Ran:
     """Run all code cells in order and write outputs and execution counts into the rebuilt notebook.
@@ -92,21 +96,23 @@ def run(
         The seed of the hidden data of an exercise.
     uses_check : bool
         Whether ``check(name)`` is ours even where no exercise has that name (then it could not be judged).
+    apart : Apart, optional
+        Which test cells run in a process of their own, and how.
     seconds : float
         For the whole notebook; cells that no time is left for are not run and have no mark.
     """
     with contextlib.ExitStack() as stack:
-        runner = _Runner(open_session, stack, time.monotonic() + seconds)
+        runner = _Runner(open_session, stack, time.monotonic() + seconds, apart)
         ran = Ran([])
         learners: list[tuple[dict[str, Any], bool]] = []
         sent = limit.Shown()
+        wrong: dict[str, Verdict] = {}  # of the exercises judged so far
         count = 0
         for cell, mine, known in zip(rebuilt.cells, rebuilt.masters, rebuilt.known, strict=True):
             if cell["cell_type"] != "code" or (mine is None and SKIP_TAG in known.tags):
                 ran.cells.append(None)
                 continue
             count += 1
-        wrong: dict[str, Verdict] = {}  # of the exercises judged so far
             name = mine.exercise if mine is not None else None
             if mine is not None and name is not None and (uses_check or exercises(name) is not None):
                 before = _Before(wrong, [cell["source"] for cell, _ in learners], exercises)
@@ -117,7 +123,7 @@ def run(
                 outputs = judged_outputs(result, mine, count)
             else:
                 graded = mine is not None and mine.grade
-                result, outputs = runner.run(cell["source"])
+                result, outputs = runner.run(cell["source"], mine.name if mine is not None and graded else "")
                 outputs = sent.cut(outputs, graded=graded)
                 learners.append((cell, graded))
             cell["outputs"], cell["execution_count"] = outputs, count
@@ -215,8 +221,10 @@ def _unjudged(name: str, message: str, exercise: Exercise | None = None) -> Verd
 class _Runner:
     """Keeps a live session: opens it, and after a death opens another and runs the good cells again."""
 
-    def __init__(self, open_session: Opener, stack: contextlib.ExitStack, deadline: float) -> None:
+    def __init__(self, open_session: Opener, stack: contextlib.ExitStack, deadline: float, apart: Apart | None = None) -> None:
         self.open_session, self.stack, self.deadline = open_session, stack, deadline
+        self.apart = apart if apart is not None and apart.script.apart else None
+        self.tests: Tests | None = None
         self.session: Any = None
         self.good: list[str] = []
         self.restarts = -1  # the first opening is none
@@ -225,7 +233,7 @@ class _Runner:
 
     def ready(self) -> Any:
         """A live session that has run all good cells; None when no restart or no time is left."""
-        while self.session is None or not self.session.alive:
+        while self.session is None or not self.session.alive or (self.tests is not None and not self.tests.alive):
             if self.restarts >= MAX_RESTARTS:
                 self.spent = f"Not run: this notebook ended its process more than {MAX_RESTARTS} times before."
                 return None
@@ -233,9 +241,19 @@ class _Runner:
                 return None
             self.stack.close()
             self.restarts += 1
+            self._open()
+        return None if self.late else self.session
+
+    def _open(self) -> None:
+        if self.apart is None:
             self.session = self.stack.enter_context(self.open_session())
             self._replay()
-        return None if self.late else self.session
+            return
+        self.session, tests = map(self.stack.enter_context, self.apart.open_pair())
+        self._replay()
+        done = self.tests.done if self.tests is not None else []
+        if self.session.alive:
+            self.tests = Tests(self.apart.script, self.session, tests, done)
 
     @property
     def late(self) -> bool:
@@ -252,17 +270,18 @@ class _Runner:
                 if not self.session.alive:
                     return
 
-    def run(self, source: str) -> tuple[CellRun, list[dict[str, Any]]]:
-        """Run one ordinary cell."""
+    def run(self, source: str, test: str = "") -> tuple[CellRun, list[dict[str, Any]]]:
+        """Run one ordinary cell; ``test`` is the name of a graded one."""
+        apart = self.apart is not None and test in self.apart.script.apart
         try:
             session = self.ready()
             if session is None:
                 return CellRun("not run", note=self.spent), [_display({"text/plain": self.spent})]
-            result = session.run_cell(source)
+            result = self.tests.run(test, source) if apart and self.tests is not None else session.run_cell(source)
         except SandboxError as error:
             note = self.fault(f"a cell could not be run: {error}")
             return CellRun("not run", note=note), [_display({"text/plain": "The sandbox was not available: not run."})]
-        if result.status in ("ok", "error") and session.alive:
+        if result.status in ("ok", "error") and session.alive and not apart:
             self.good.append(source)
         outputs = result.outputs  # cleaned when all cells have run: a later cell may update a display in them
         status = result.status

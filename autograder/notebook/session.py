@@ -13,6 +13,7 @@ from autograder.sandbox import Limits, Policy, Sandbox
 
 Packages = tuple[str, ...] | Literal["all"]
 OpenSession = Callable[[Mapping[str, bytes]], contextlib.AbstractContextManager[Any]]
+ENVIRONMENT = {"NBGRADER_EXECUTION": "autograde"}
 BASIC = ("numpy", "plotly")
 
 
@@ -43,15 +44,28 @@ class Opener:
     box: Sandbox
     bounds: Limits
     level: str
+    withhold: tuple[str, ...] = ()
 
     def __call__(self, files: Mapping[str, bytes]) -> Any:
-        """A session that finds these files."""
-        return self.box.open(files=files, limits=self.bounds, environment={"NBGRADER_EXECUTION": "autograde"})
+        """A session that finds these files, without the modules that learners may not import."""
+        return self.box.open(files=files, limits=self.bounds, environment=ENVIRONMENT, withhold=self.withhold)
+
+    def pair(self, files: Mapping[str, bytes]) -> tuple[Any, Any]:
+        """Such a session, and one beside it for test cells, which finds all modules."""
+        return self.box.pair(files=files, limits=self.bounds, environment=ENVIRONMENT, withhold=self.withhold)
+
+    def trusted(self, files: Mapping[str, bytes]) -> Any:
+        """A session for the instructor's own code: it finds all modules."""
+        return self.box.open(files=files, limits=self.bounds, environment=ENVIRONMENT)
 
 
 @contextlib.contextmanager
-def opened(exercises: Iterable[Exercise], packages: Packages, level: str | None, timeout: float | None) -> Iterator[Opener]:
+def opened(
+    exercises: Iterable[Exercise], packages: Packages, level: str | None, timeout: float | None, withhold: Iterable[str] = ()
+) -> Iterator[Opener]:
     """Start the sandbox of an assignment; yields what opens a session in it, given the files that the notebook finds.
+
+    ``withhold`` names modules that test cells may import and learners may not.
 
     ``level`` None requires A or, where a machine gives no namespaces to a notebook of its own, A-. Which one it is stands in
     every report. Sessions may be opened from any thread.
@@ -62,9 +76,12 @@ def opened(exercises: Iterable[Exercise], packages: Packages, level: str | None,
         If this machine does not give the level.
     """
     posed = list(exercises)
+    withheld = tuple(withhold)
     bounds, policy = limits(timeout, exercises=bool(posed)), needs(posed, packages)
+    if withheld and policy.packages != "all":
+        policy = dataclasses.replace(policy, packages=(*policy.packages, *withheld))
     with _sandbox(policy, level) as box:
-        yield Opener(box, bounds, box.level)
+        yield Opener(box, bounds, box.level, withheld)
 
 
 def _sandbox(policy: Policy, level: str | None) -> Sandbox:
