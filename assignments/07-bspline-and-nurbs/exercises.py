@@ -289,7 +289,11 @@ def _(t, knots, k):
 # A7.3 ------------------------------------------------------------------------------------------------------------------------
 
 
-@exercise(points=6, title="B-spline patch of orders k and l", kind="surface")
+def _spans(P, k, l):
+    return tuple(np.linspace(0.0, 1.0, count - order + 2) for count, order in zip(np.shape(P), (k, l), strict=False))
+
+
+@exercise(points=6, title="B-spline patch of orders k and l", kind="surface", spans=_spans)
 def bspline_patch(u, w, P, k, l):
     """Return the points of the B-spline patch with the control net P, of order k along u and order l along w.
 
@@ -400,7 +404,7 @@ def _(u, w, P, k, l):
 # A7.4 ------------------------------------------------------------------------------------------------------------------------
 
 
-@exercise(points=6, title="NURBS patch", kind="surface")
+@exercise(points=6, title="NURBS patch", kind="surface", spans=lambda P, h, k, l: _spans(P, k, l))
 def nurbs_patch(u, w, P, h, k, l):
     """Return the points of the NURBS patch with the control net P and the weights h, of order k along u and order l along w.
 

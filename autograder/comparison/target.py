@@ -162,6 +162,18 @@ class Target:
         numbers = [np.abs(np.asarray(a, dtype=float)) for a in self.arguments if isinstance(a, np.ndarray | int | float)]
         return max((float(n.max()) for n in numbers if n.size), default=1.0) or 1.0
 
+    @cached_property
+    def breaks(self) -> tuple[Array, ...] | None:
+        """Per parameter the places where pieces of the map meet, 0 and 1 among them; None where it is not said."""
+        if self.exercise.spans is None:
+            return None
+        given = self._guarded(self.exercise.spans, self.arguments, "spans")
+        if isinstance(given, Raised) or len(given) != len(self.names):
+            raise ExerciseError(
+                f"{self._place('spans')} must return the places for each of {', '.join(self.names)}; got {given!r}"
+            )
+        return tuple(np.unique(np.concatenate([[0.0], np.asarray(one, dtype=float), [1.0]])) for one in given)
+
     def surface(self, value: Any) -> Evaluator:
         """An answer judged as a surface, evaluated at points (N, 2). Raises whatever ``judged_as`` raises."""
         judged_as = self.exercise.judged_as

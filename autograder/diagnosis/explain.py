@@ -7,6 +7,7 @@ A little over 400 lines: the four parts of one message are chosen here side by s
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -17,8 +18,11 @@ from autograder.comparison.gates import Gate, Trouble, error_gate
 from autograder.comparison.maps import Sampled, Shifted
 from autograder.comparison.sets import SetFinding
 from autograder.comparison.target import Target
+from autograder.diagnosis.contrast import Contrast, contrast
+from autograder.diagnosis.holding import Told, of_data, right_places
 from autograder.diagnosis.ladder import Finding, Recognised, common
 from autograder.diagnosis.places import AXES, Localised, coordinate_fact, localise
+from autograder.diagnosis.regions import region
 from autograder.diagnosis.wording import (
     Parts,
     described,
@@ -129,9 +133,20 @@ class Explanation:
         blind = [t.name for t in right if t.drawn.blind]
         seeing = [t.name for t in right if not t.drawn.blind]
         parts: Parts = [("right", say("right.sets", data=named(seeing)))] if seeing else []
-        if blind:
+        if seeing and self.contrast is not None:
+            parts.append(("right", of_data(self.contrast)[0]))
+        elif blind:
             parts.append(("right", say("right.blind", data=named(blind))))
         return parts
+
+    @cached_property
+    def contrast(self) -> Contrast | None:
+        """What parts the data that are answered rightly from the others; a known mistake says it better."""
+        vague = self.recognised is None and self.tier in ("different", "part", "more", "shape", "not finite", "error")
+        return contrast(self.shown) if vague else None
+
+    def _look_of_contrast(self) -> str | None:
+        return of_data(self.contrast)[1] if self.contrast is not None else None
 
     # --- gates
 
@@ -183,34 +198,20 @@ class Explanation:
         where = localise(maps)
         f = self.worst.sampled
         assert f is not None
-        parts = [*self._right_sets(), *self._right_places(where)]
+        sets, places = self._right_sets(), self._right_places(where, maps)
+        parts = [*sets, *([("right", places[0])] if places is not None else [])]
         if self.recognised is not None:
             return [*parts, *self._mistake(), ("where", self._where(f))], False
-        wrong, look = self._rung(where, maps, f)
+        better = (places[1] if places is not None else None) or self._look_of_contrast()
+        wrong, look = self._rung(where, maps, f, better)
         body = [*parts, *(("wrong", text) for text in wrong), ("where", self._where(f)), ("look", look)]
         return body, bool(where.unused)
 
-    def _right_places(self, where: Localised) -> Parts:
+    def _right_places(self, where: Localised, maps: Sequence[Sampled]) -> Told | None:
         if self.tier in ("relabelled", "other start", "close", "same set", "covered") or self.exercise.kind == "mask":
-            return []
-        names = self._names()
-        right = [AXES[i] for i, fine in enumerate(where.coordinates[:3]) if fine]
-        if right:
-            return [("right", say("right.coordinates" if len(right) > 1 else "right.one_coordinate", names=listing(right)))]
-        sides = [f"{names[axis]} = {end}" for axis, end in where.sides]
-        corners = [f"({', '.join(names)}) = ({', '.join(map(str, corner))})" for corner in where.corners]
-        if len(names) == 1 and sides:
-            return [("right", say("right.ends") if len(sides) == 2 else say("right.end", names=sides[0]))]
-        thing = "face" if len(names) == 3 else "edge"
-        if len(sides) == 2 * len(names):
-            return [("right", say(f"right.{thing}s_all", count=len(sides)))]
-        if sides:
-            return [("right", say(f"right.{thing}s" if len(sides) > 1 else f"right.{thing}", names=listing(sides)))]
-        if len(corners) == where.all_corners:
-            return [("right", say("right.corners", count=len(corners)))]
-        if corners:
-            return [("right", say("right.corners_some" if len(corners) > 1 else "right.corner", names=listing(corners)))]
-        return []
+            return None
+        vague = self.recognised is None and self.tier in ("different", "part", "more")
+        return right_places(self._names(), where, region(maps) if vague else None)
 
     def _mistake(self) -> Parts:
         assert self.recognised is not None
@@ -225,8 +226,8 @@ class Explanation:
             text = say("wrong.mistake_close" if found.close else "wrong.mistake", **facts)
         return [("wrong", text), ("look", mistake.hint)]
 
-    def _rung(self, where: Localised, maps: Sequence[Sampled], f: Sampled) -> tuple[list[str], str]:
-        """What is wrong on this rung, and what to look at."""
+    def _rung(self, where: Localised, maps: Sequence[Sampled], f: Sampled, look: str | None) -> tuple[list[str], str]:
+        """What is wrong on this rung, and what to look at; ``look`` where the rung itself has nothing so telling."""
         if self.tier == "relabelled":
             return self._relabelled()
         if self.tier == "other start":
@@ -244,7 +245,7 @@ class Explanation:
                 return [*texts, *self._coordinates(maps)[0]], look
         if self.tier == "moved":
             return self._moved(maps)
-        return self._different(where, maps, f)
+        return self._different(where, maps, f, look)
 
     def _set(self, found: SetFinding, where: Localised) -> tuple[list[str], str]:
         """The same set of points, several times, a part of it, or more."""
@@ -314,7 +315,7 @@ class Explanation:
         text = say("wrong.moved.relabelled", relabelled=relabelled(shifted.symmetry)) if also else ""
         return say("wrong.other_start", noun=self.noun, shift=listing(moved), relabelled=text).strip()
 
-    def _different(self, where: Localised, maps: Sequence[Sampled], f: Sampled) -> tuple[list[str], str]:
+    def _different(self, where: Localised, maps: Sequence[Sampled], f: Sampled, look: str | None) -> tuple[list[str], str]:
         if self.exercise.kind == "mask":
             return self._mask(f)
         names, away = self._names(), messages.amount(f.worst)
@@ -338,6 +339,8 @@ class Explanation:
             return [say("wrong.different_inside", amount=away)], say("look.inside")
         if len(where.corners) == where.all_corners and not where.sides:
             return [say("wrong.different_corners", amount=away)], say("look.corners")
+        if look is not None:
+            return [say("wrong.different", noun=self.noun, amount=away)], look
         if len(where.sides) == 1:
             axis, end = where.sides[0]
             look = say("look.edge", name=names[axis], start=end, end=1 - end)
@@ -395,7 +398,8 @@ class Explanation:
                 *value_where(finding, data),
                 ("look", say("look.close")),
             ]
-        return [*parts, *value_wrong(finding, answer, expected), *value_where(finding, data), ("look", say("look.value"))]
+        look = self._look_of_contrast() or say("look.value")
+        return [*parts, *value_wrong(finding, answer, expected), *value_where(finding, data), ("look", look)]
 
     def _no_error(self, answer: Answer, data: str) -> Parts:
         look = ("look", say("look.error_expected"))

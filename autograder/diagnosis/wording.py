@@ -19,6 +19,7 @@ from autograder.messages import listing, number, say, written
 
 Parts = list[tuple[str, str]]
 
+LONGEST_SAYING = 120  # characters of what is said of a data set
 PLAIN = 0.05  # of the size: from here on a picture shows a deviation as well as it shows a larger one
 
 
@@ -160,13 +161,15 @@ def named(names: Sequence[str] | set[str]) -> str:
 
 
 def described(target: Target) -> str:
-    """A data set with those of its arguments that are short enough to read."""
+    """A data set with what is said of it and those of its arguments that are short enough to read."""
     shown = [
         f"{name} = {repr(value) if isinstance(value, str) else written(value)}"
         for name, value in target.drawn.arguments.items()
         if isinstance(value, str | bool | int | float) or (isinstance(value, np.ndarray) and value.size <= 3)
     ]
-    return say("data.with", name=target.name, arguments=", ".join(shown)) if shown else target.name
+    says = target.drawn.says.rstrip(".") if target.exercise.kind != "label" else ""  # or it would tell the answer
+    told = ([says] if 0 < len(says) <= LONGEST_SAYING else []) + ([", ".join(shown)] if shown else [])
+    return say("data.with", name=target.name, arguments="; ".join(told)) if told else target.name
 
 
 def trouble_text(trouble: Trouble) -> str:
