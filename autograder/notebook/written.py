@@ -1,30 +1,45 @@
-"""A notebook as the bytes of its file, the same bytes that nbformat writes, at a fraction of its cost to load."""
+"""A notebook as the bytes of its file: what nbformat writes, but for figures, which stand on one line each.
+
+A figure is thousands of small values that nobody reads line by line; so written they cost a fifth of the time and of the room.
+"""
 
 from __future__ import annotations
 
 import json
+import secrets
 from collections.abc import Mapping
 from typing import Any
+
+FIGURE = "application/vnd.plotly.v1+json"
 
 
 def dumps(notebook: Mapping[str, Any]) -> bytes:
     """The file of a valid nbformat-4 notebook: sorted keys, texts split into lines, one newline at the end."""
-    split = {**notebook, "cells": [_cell(cell) for cell in notebook["cells"]]}
+    figures: dict[str, str] = {}
+    split = {**notebook, "cells": [_cell(cell, figures) for cell in notebook["cells"]]}
     text = json.dumps(split, indent=1, sort_keys=True, separators=(",", ": "), ensure_ascii=False, allow_nan=False)
-    return (text + "\n").encode("utf-8")
+    parts = []
+    for place, figure in figures.items():  # in the order of the cells, as in the text
+        before, _, text = text.partition(f'"{place}"')
+        parts += [before, figure]
+    return "".join([*parts, text, "\n"]).encode("utf-8")
 
 
-def _cell(cell: Mapping[str, Any]) -> dict[str, Any]:
+def _cell(cell: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any]:
     split = {**cell, "source": cell["source"].splitlines(True)}
     if "outputs" in cell:
-        split["outputs"] = [_output(output) for output in cell["outputs"]]
+        split["outputs"] = [_output(output, figures) for output in cell["outputs"]]
     return split
 
 
-def _output(output: Mapping[str, Any]) -> dict[str, Any]:
+def _output(output: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any]:
     if output["output_type"] == "stream":
         return {**output, "text": output["text"].splitlines(True)}
     if "data" in output:
         data = {mime: value.splitlines(True) if mime.startswith("text/") else value for mime, value in output["data"].items()}
+        if isinstance(data.get(FIGURE), dict):
+            place = secrets.token_hex(16)  # nothing that a learner wrote can be this
+            written = json.dumps(data[FIGURE], sort_keys=True, ensure_ascii=False, allow_nan=False)
+            figures[place], data[FIGURE] = written, place
         return {**output, "data": data}
     return dict(output)

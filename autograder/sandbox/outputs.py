@@ -63,6 +63,8 @@ def text(value: Any, limit: int = 1 << 30) -> str:
     """A valid Unicode string of at most ``limit`` characters."""
     if not isinstance(value, str):
         raise WireError("a text is missing")
+    if value.isascii() and len(value) <= limit:
+        return value
     return SURROGATES.sub("\ufffd", value[:limit])
 
 

@@ -51,6 +51,7 @@ class Process:
         self.limits, self.level = limits, level
         self.max_rss = 0
         self._link, self._report, self._pidfd = link, report, pidfd
+        self._rest = b""
         self._link.setblocking(False)
         self._cpu = 0.0
         self._stopped: Ended | None = None
@@ -149,16 +150,20 @@ class Process:
         """One whole frame: kind, exchange, body."""
         watch = _Watch(self.cpu + action.cpu, time.monotonic() + action.wall, beside)
         self._poll.register(self._link, select.POLLIN)
-        kind, length, exchange = wire.header(self._read(wire.HEADER.size, watch, action), action.most)
-        return kind, exchange, self._read(length, watch, action)
+        data = self._read(wire.HEADER.size, watch, action, self._rest)
+        kind, length, exchange = wire.header(data[: wire.HEADER.size], action.most)
+        whole = self._read(wire.HEADER.size + length, watch, action, data)
+        end = wire.HEADER.size + length
+        self._rest = whole[end:]  # what came too early is met by the next question, and is no answer to it
+        return kind, exchange, whole[wire.HEADER.size : end]
 
-    def _read(self, count: int, watch: _Watch, action: Action) -> bytes:
-        """Exactly ``count`` bytes; memory grows only with what has arrived."""
-        data = bytearray()
-        while len(data) < count:
+    def _read(self, count: int, watch: _Watch, action: Action, data: bytes = b"") -> bytes:
+        """At least ``count`` bytes, beginning with ``data``; memory grows only with what has arrived."""
+        read = bytearray(data)
+        while len(read) < count:
             self._within(watch, action)
             try:
-                part = self._link.recv(min(count - len(data), 2**20))
+                part = self._link.recv(min(count - len(read), 2**20) if read else 2**16)
             except BlockingIOError:
                 if any(descriptor == self._pidfd for descriptor, _ in self._poll.poll(watch.pause(self.cpu) * 1000)):
                     self._drain_or_gone(action)
@@ -167,10 +172,10 @@ class Process:
                 part = b""
             if not part:
                 self._gone(action)
-            data += part
-            if len(part) < 512 and len(data) < count:
+            read += part
+            if len(part) < 512 and len(read) < count:
                 time.sleep(0.001)  # a child that drips bytes must not keep us busy
-        return bytes(data)
+        return bytes(read)
 
     def _drain_or_gone(self, action: Action) -> None:
         """The process has ended: what it sent before may still be waiting."""

@@ -13,7 +13,7 @@ from autograder.notebook import safe
 from autograder.notebook.master import Master
 from autograder.notebook.rebuild import rebuild
 from autograder.notebook.submission import parse
-from autograder.notebook.written import dumps
+from autograder.notebook.written import FIGURE, dumps
 from autograder.result import Case, Verdict
 
 PNG = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
@@ -162,6 +162,25 @@ def test_any_json_becomes_a_valid_notebook_or_is_refused(cells):
         return
     written = dumps(made.notebook)
     nbformat.validate(nbformat.reads(written.decode(), as_version=4))
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(st.dictionaries(st.text(max_size=5), JSON, max_size=3), max_size=4), st.text(max_size=20))
+def test_a_written_notebook_holds_its_figures_on_one_line_each(layouts, text):
+    """What is read back is what was written, figures among it, and everything else is as nbformat writes it."""
+    import nbformat
+
+    drawn = [safe.figure({"data": [{"type": "scatter", "x": [1.5, None]}], "layout": layout}) for layout in layouts]
+    figures, text = [figure for figure in drawn if figure is not None], safe.text(text)
+    shown = [{"output_type": "display_data", "metadata": {}, "data": {FIGURE: fig, "text/plain": text}} for fig in figures]
+    cell = {"cell_type": "code", "id": "a", "metadata": {}, "source": text, "execution_count": 1, "outputs": shown}
+    whole = {"cells": [cell, cell | {"id": "b"}], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+    written = dumps(whole).decode()
+    read = nbformat.reads(written, as_version=4)
+    assert [dict(output["data"][FIGURE]) for one in read["cells"] for output in one["outputs"]] == 2 * figures
+    assert written.count('"data": [{"type": "scatter", "x": [1.5, null]}]') == 2 * len(figures)
+    if not figures:
+        assert written == nbformat.writes(nbformat.from_dict(whole)) + "\n"
 
 
 @settings(max_examples=200, deadline=None)
