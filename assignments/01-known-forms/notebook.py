@@ -317,7 +317,7 @@ def carried(u, w, R=3, r=1):
     return np.stack([R * np.cos(theta) + r * np.cos(phi), R * np.sin(theta), r * np.sin(phi)], axis=-1)
 
 
-reveal(torus_so, "no: it has no thickness where it should be thickest, at θ = π/2")
+reveal(torus_so, "no: at θ = π/2 the plane through the axis cuts it in a line, not in a circle")
 plot.view(carried)
 
 # %% [markdown]

@@ -140,7 +140,7 @@ with once_written():
         holds(f"{name} agrees with you", answer(*trap), direction_cosines(*trap))
 
 # %% [markdown]
-# **Who made which mistake?** One took the components for cosines, one walked round the blocks, one forgot the root. On a step
+# **Who made which mistake?** One took the components for cosines, one added up the three steps, one forgot the root. On a step
 # of length 1 along an axis all three are invisible. An arrow such as $(3, 4, 12)$ sees them all.
 
 # %% [markdown]

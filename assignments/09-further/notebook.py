@@ -73,7 +73,7 @@ NET = np.array([
     [[7, 1, 1], [11, 3, -2], [8, 9, -1], [7, 11, 2]],
 ], float)  # fmt: skip
 u, w, t = np.linspace(0, 1, 9)[:, None], np.linspace(0, 1, 9)[None, :], np.linspace(0, 1, 9)
-PLAIN = {"template": "none", "margin": {"t": 20, "b": 40, "l": 40, "r": 20}}  # for plane pictures
+PLAIN = {"template": "none", "margin": {"t": 20, "b": 40, "l": 60, "r": 20}}  # for plane pictures
 
 # %% [markdown]
 # # I · Implicit surfaces
@@ -96,7 +96,7 @@ angle = np.linspace(0, 2 * np.pi, 721)
 figure = go.Figure().update_layout(height=380, **PLAIN)
 for D, colour in ((0, "#0072B2"), (1, "#009E73"), (2, "#D55E00"), (3, "#8A6FB0")):
     below = 1 + D * np.cos(angle) * np.sin(angle)  # r² times this is 3
-    r = np.sqrt(3 / np.where(below > 0.02, below, np.nan))
+    r = np.sqrt(3 / np.where(below > 0.01, below, np.nan))
     x, y, line = r * np.cos(angle), r * np.sin(angle), {"color": colour, "width": 3}
     figure.add_scatter(x=x, y=y, name=f"D = {D}", mode="lines", line=line)
 figure.update_xaxes(title="x", range=[-6, 6]).update_yaxes(title="y", range=[-4, 4], scaleanchor="x")
@@ -1005,14 +1005,14 @@ check(coons_bezier_net)
 # A Ferguson patch wants tangents, and the machinist has only points. So a tangent at each point is made from its two neighbours: its
 # *direction* is that from the point before to the point after. Its *length* is the question.
 #
-# Four points: $(0,0), (3,0), (4,1), (4,4)$; two long legs and a short one of $\sqrt 2$ between them. FMILL, an early program, takes the *shorter* of the
-# two distances to the neighbours. How long is the tangent at $(3, 0)$?
+# Four points: $(0,0), (6,0), (7,1), (7,7)$; two long legs and a short one of $\sqrt 2$ between them. FMILL, an early program, takes the *shorter* of the
+# two distances to the neighbours. How long is the tangent at $(6, 0)$? (The picture shows the corner.)
 
 # %%
 tangent_length = None  # a number
 
 # %% fold=true
-row = np.array([(0, 0), (3, 0), (4, 1), (4, 4)], float)
+row = np.array([(0, 0), (6, 0), (7, 1), (7, 7)], float)
 legs = np.linalg.norm(np.diff(row, axis=0), axis=-1)
 s = np.linspace(0, 1, 41)[:, None]
 ease = 1 - 3 * s**2 + 2 * s**3, 3 * s**2 - 2 * s**3, s - 2 * s**2 + s**3, s**3 - s**2
@@ -1027,7 +1027,7 @@ for name, length, colour in (("longer", np.maximum, "#D55E00"), ("shorter", np.m
     x, y = np.concatenate(pieces).T
     figure.add_scatter(x=x, y=y, mode="lines", name=f"the {name} one", line={"color": colour, "width": 3})
 figure.add_scatter(x=row[:, 0], y=row[:, 1], mode="markers", name="points", marker={"size": 9, "color": "#7A7A7A"})
-figure.update_yaxes(scaleanchor="x")
+figure.update_xaxes(range=[4.4, 8]).update_yaxes(range=[-0.7, 2.4], scaleanchor="x")
 
 # %% [markdown]
 # **What to see.** A tangent that is too long for the short leg shoots past the next point and has to come back.
@@ -1108,7 +1108,7 @@ reveal(to_turn, ("u = 0", "v = 1", "w = 0"))
 # Why $v = 1$, and not $v = 0$? Because $u, w$ skips a letter: $S_u \times S_w$ points along *falling* $v$. Test it on the cube where $u, v, w$
 # are $x, y, z$.
 #
-# **Task (outward_normals).** Six unit normals, all of them outward, in the order $u = 0$, $u = 1$, $v = 0$, $v = 1$, $w = 0$, $w = 1$. The
+# **Task (outward_normals).** The solid is right-handed, as that cube is. Six unit normals, all of them outward, in the order $u = 0$, $u = 1$, $v = 0$, $v = 1$, $w = 0$, $w = 1$. The
 # place on each face is $(s, t)$: its two parameters in the order of the letters. `solid` gives the derivatives.
 
 
@@ -1132,11 +1132,12 @@ def outward_normals(s, t, P):
 
 # %%
 with once_written():
-    at_faces = (0, 0.5, 0.5), (1, 0.5, 0.5), (0.5, 0, 0.5), (0.5, 1, 0.5), (0.5, 0.5, 0), (0.5, 0.5, 1)
     needles = outward_normals(0.5, 0.5, bowed)
+    at_faces = (0, 0.5, 0.5), (1, 0.5, 0.5), (0.5, 0, 0.5), (0.5, 1, 0.5), (0.5, 0.5, 0), (0.5, 0.5, 1)
     feet = np.array([solid(*place, bowed) for place in at_faces])
-    gaps = np.full((6, 3), np.nan)
-    needles = {"outward": np.stack([feet, feet + 4 * needles, gaps], axis=1).reshape(-1, 3)}
+    middle = np.broadcast_to(solid(0.5, 0.5, 0.5, bowed), feet.shape)
+    way = np.stack([middle, feet, feet + 4 * needles, feet, middle], axis=1).reshape(-1, 3)
+    needles = {"outward normals": way}
     display(plot.view(lambda u, v, w: solid(u, v, w, bowed), curves=needles))
 
 # %%
