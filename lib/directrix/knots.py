@@ -10,6 +10,8 @@ sum to 1 on every span as before. Nothing is lost without them, and every conver
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -49,12 +51,12 @@ class KnotVector(Frozen):
         """Number of basis functions, repeated control points included."""
         return len(self.values) - self.order
 
-    @property
+    @cached_property
     def start(self) -> float:
         """Where the domain begins: values[order - 1]."""
         return float(self.values[self.order - 1])
 
-    @property
+    @cached_property
     def end(self) -> float:
         """Where the domain ends: values[-order]."""
         return float(self.values[-self.order])

@@ -32,7 +32,7 @@ class SpanTable:
 
     Examples
     --------
-    >>> SpanTable(np.array([0.0, 0, 0, 1, 2, 2, 2]), 3)(np.array([0.5, 1.0, 2.0])).tolist()
+    >>> SpanTable(np.array([0.0, 0, 0, 1, 2, 2, 2]), 3)(np.array([0.25, 0.5, 1.0]), np.array([0.5, 1.0, 2.0])).tolist()
     [2, 3, 3]
     """
 
@@ -40,13 +40,13 @@ class SpanTable:
 
     def __init__(self, knots: Array, order: int) -> None:
         self._knots, self._order = knots, order
-        self._start, self._length = knots[order - 1], knots[-order] - knots[order - 1]
         self._count = self.CELLS * (len(knots) - 2 * order + 1)
-        self._cells = spline_span(knots, order, self._start + self._length * (np.arange(self._count + 1) / self._count))
+        ends = np.arange(self._count + 1) / self._count
+        self._cells = spline_span(knots, order, (1 - ends) * knots[order - 1] + ends * knots[-order])
 
-    def __call__(self, t: Array) -> Indices:
-        """The spans that hold t (n,), all in the domain."""
-        spans = self._cells[((t - self._start) / self._length * self._count).astype(np.intp)]
+    def __call__(self, u: Array, t: Array) -> Indices:
+        """The spans that hold t (n,), where t is u (n,) in [0, 1] stretched onto the domain."""
+        spans = self._cells[(u * self._count).astype(np.intp)]
         outside = np.flatnonzero((t < self._knots[spans]) | (t >= self._knots[spans + 1]))
         spans[outside] = spline_span(self._knots, self._order, t[outside])
         return spans
@@ -64,12 +64,12 @@ def spline_planes(knots: Array, order: int, t: Array, span: Indices, derivative:
     >>> spline_planes(np.array([0.0, 0, 0, 1, 2, 2, 2]), 3, np.array([0.5, 2.0]), np.array([2, 3])).tolist()
     [[0.25, 0.0], [0.625, 0.0], [0.125, 1.0]]
     """
-    values = np.zeros((order, len(t)))
     if derivative >= order:
-        return values
+        return np.zeros((order, len(t)))
     near = knots[span + np.arange(2 - order, order)[:, None]]  # the k - 1 knots up to t, and the k - 1 beyond
     below, above = near[: order - 1], near[order - 1 :]
     left, right = t - below, above - t
+    values = np.empty((order, len(t)))
     values[0] = 1.0
     for q in range(1, order):  # q functions of order q become q + 1 of order q + 1
         low, high = slice(order - 1 - q, order - 1), slice(q)
@@ -77,11 +77,11 @@ def spline_planes(knots: Array, order: int, t: Array, span: Indices, derivative:
         if q < order - derivative:
             np.multiply(right[high], share, out=values[:q])
             share *= left[low]
-            values[1 : q + 1] += share
         else:
             share *= q
             np.negative(share, out=values[:q])
-            values[1 : q + 1] += share
+        values[1:q] += share[:-1]
+        values[q] = share[-1]
     return values
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from itertools import product
 from math import comb, prod
 
@@ -19,7 +20,7 @@ def lower(orders: Sequence[Order]) -> list[Order]:
     >>> lower([(1, 1)])
     [(0, 0), (0, 1), (1, 0), (1, 1)]
     """
-    return sorted({below for order in orders for below in product(*(range(n + 1) for n in order))})
+    return [order for order, _ in _rule(tuple(orders))]
 
 
 def cartesian(parts: dict[Order, Array], orders: Sequence[Order], out: Array | None = None) -> list[Array]:
@@ -29,16 +30,27 @@ def cartesian(parts: dict[Order, Array], orders: Sequence[Order], out: Array | N
     of the binomials (Piegl & Tiller, The NURBS Book, 2nd ed., equation 4.20 for two parameters). The parts are used up; the
     answers are written to the planes ``out``, shape (len(orders), 3, ...), if they are given.
     """
-    zero = (0,) * len(orders[0])
-    inverse, done = 1.0 / parts[zero][3], {}
+    rule = _rule(tuple(orders))
     places = {} if out is None else dict(zip(orders, out, strict=True))
-    scratch = np.empty(parts[zero][:3].shape) if len(parts) > 1 else inverse
-    for k, part in sorted(parts.items()):
-        value = part[:3]  # worked on in place: fresh memory costs more here than arithmetic
-        for i in product(*(range(n + 1) for n in k)):
-            if i != zero:
-                ways = prod(comb(n, j) for n, j in zip(k, i, strict=True))
-                rest = tuple(n - j for n, j in zip(k, i, strict=True))
-                value -= np.multiply(done[rest], parts[i][3] if ways == 1 else ways * parts[i][3], out=scratch)
+    inverse, done = 1.0 / parts[rule[0][0]][3], {}
+    scratch = np.empty((3, *inverse.shape)) if len(rule) > 1 else inverse
+    for k, terms in rule:
+        value = parts[k][:3]  # worked on in place: fresh memory costs more here than arithmetic
+        for ways, i, rest in terms:
+            value -= np.multiply(done[rest], parts[i][3] if ways == 1 else ways * parts[i][3], out=scratch)
         done[k] = np.multiply(value, inverse, out=places.get(k, value))
-    return [np.moveaxis(done[order], 0, -1) for order in orders]
+    return [done[order].transpose(*range(1, inverse.ndim + 1), 0) for order in orders]
+
+
+@cache
+def _rule(orders: tuple[Order, ...]) -> list[tuple[Order, list[tuple[int, Order, Order]]]]:
+    """The orders that are needed, from low to high, each with its terms of the sum: (C(k, i), i, k - i)."""
+    found = []
+    for k in sorted({below for order in orders for below in product(*(range(n + 1) for n in order))}):
+        terms = [
+            (prod(map(comb, k, i)), i, tuple(n - j for n, j in zip(k, i, strict=True)))
+            for i in product(*(range(n + 1) for n in k))
+            if any(i)
+        ]
+        found.append((k, terms))
+    return found

@@ -22,12 +22,12 @@ from directrix.checks import Array
 from directrix.curves.rational import lift
 from directrix.knots import Knots, KnotVector, knot_vector
 from directrix.surfaces.rational import cartesian, lower
-from directrix.surfaces.support import ScatteredSums, compiled_row, row_of
+from directrix.surfaces.support import FEW, ScatteredSums, compiled_row, row_of
 from directrix.surfaces.surface import Orders, Surface, row_blocks
 from directrix.surfaces.tensor import Grid, planes, window
 from directrix.transform import Transform
 
-FEW = 8  # points of a grid for which local support beats the matrix products
+SMALL = 8  # points of a grid for which local support beats the matrix products
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -83,8 +83,8 @@ class SplinePatch(Surface):
     def _sums(self) -> ScatteredSums:
         return ScatteredSums(self._blended, self.knot_vector_u, self.knot_vector_w)
 
-    def _write(self, sums: Sums, orders: Orders, out: Array) -> None:
-        """Derivatives of the surface into ``out`` (len(orders), 3, ...), from those of the blended coefficients."""
+    def _points(self, sums: Sums, orders: Orders, out: Array | None = None) -> list[Array]:
+        """Derivatives of the surface (..., 3) from those of the blended coefficients; into planes ``out``, if given."""
         raise NotImplementedError
 
     def _below(self, orders: Orders) -> Orders:
@@ -92,35 +92,28 @@ class SplinePatch(Surface):
         return orders
 
     def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        shape = np.broadcast_shapes(u.shape, w.shape)
-        u, w = np.broadcast_to(u, shape).ravel(), np.broadcast_to(w, shape).ravel()
+        if np.broadcast(u, w).size <= FEW:
+            return self._points(self._sums.few(u, w, self._below(orders)).__getitem__, orders)
+        u, w = np.broadcast_arrays(u, w)
         out = np.empty((len(orders), 3, u.size))
-        for start in range(0, u.size, self._sums.block):
-            part = slice(start, start + self._sums.block)
-            found = self._sums(u[part], w[part], self._below(orders))
-            self._write(found.__getitem__, orders, out[..., part])
-        return [value.T.reshape(*shape, 3) for value in out]
+        for part, found in self._sums.blocks(u.ravel(), w.ravel(), self._below(orders)):
+            self._points(found.__getitem__, orders, out[..., part])
+        return [value.T.reshape(*u.shape, 3) for value in out]
 
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
-        if u.size * w.size <= FEW:
-            return self._jet(u[:, None], w, orders)
+        if u.size * w.size <= SMALL:
+            return self._jet(u[:, None], w[None], orders)
         grid = self._grid(u, w, self._below(orders))
         out = np.empty((len(orders), 3, u.size, w.size))
         for part in row_blocks((u.size, w.size)):
-            self._write(partial(grid, part), orders, out[:, :, part])
+            self._points(partial(grid, part), orders, out[:, :, part])
         return [value.transpose(1, 2, 0) for value in out]
 
     def _mesh_rows(self, u: Array, w: Array, orders: Orders) -> Callable[[slice], Sequence[Array]]:
-        if u.size * w.size <= FEW:
+        if u.size * w.size <= SMALL:
             return super()._mesh_rows(u, w, orders)
         grid = self._grid(u, w, self._below(orders))
-
-        def rows(part: slice) -> Sequence[Array]:
-            out = np.empty((len(orders), 3, len(u[part]), w.size))
-            self._write(partial(grid, part), orders, out)
-            return [value.transpose(1, 2, 0) for value in out]
-
-        return rows
+        return lambda part: self._points(partial(grid, part), orders)
 
     def _grid(self, u: Array, w: Array, orders: Orders) -> Grid:
         """What gives derivatives of the blended coefficients on rows of the grid of u (p,) and w (q,)."""
@@ -183,9 +176,12 @@ class BSplinePatch(SplinePatch):
     def _coefficients(self) -> Array:
         return self.control_net
 
-    def _write(self, sums: Sums, orders: Orders, out: Array) -> None:
+    def _points(self, sums: Sums, orders: Orders, out: Array | None = None) -> list[Array]:
+        if out is None:
+            return [np.moveaxis(sums(order), 0, -1) for order in orders]
         for order, place in zip(orders, out, strict=True):
             place[...] = sums(order)
+        return [np.moveaxis(place, 0, -1) for place in out]
 
     def with_net(self, net: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None) -> BSplinePatch:
         """The same orders with another net, on the same knots or on others."""
@@ -258,8 +254,8 @@ class NurbsPatch(SplinePatch):
     def _below(self, orders: Orders) -> Orders:
         return lower(orders)
 
-    def _write(self, sums: Sums, orders: Orders, out: Array) -> None:
-        cartesian({order: sums(order) for order in lower(orders)}, orders, out)
+    def _points(self, sums: Sums, orders: Orders, out: Array | None = None) -> list[Array]:
+        return cartesian({order: sums(order) for order in self._below(orders)}, orders, out)
 
     def with_net(
         self, net: Array, weights: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None

@@ -88,7 +88,7 @@ class Surface(Frozen):
     def _evaluate(self, u: ArrayLike, w: ArrayLike, orders: Orders) -> list[Array]:
         """The one door: parameters checked, open meshes seen, every answer of the full shape."""
         u, w = checks.parameter("u", u), checks.parameter("w", w)
-        shape = (*checks.broadcast(u=u, w=w), 3)
+        shape = (*(u.shape if u.shape == w.shape else checks.broadcast(u=u, w=w)), 3)
         if 0 in shape:
             return [np.empty(shape) for _ in orders]
         if _is_open_mesh(u, w):
