@@ -149,17 +149,19 @@ def as_surface(surface: Callable[..., Any], *, tolerance: float = 4e-15) -> Surf
     if isinstance(surface, SurfaceData):
         return surface
     count = SURFACE_DEGREE + 1
-    angles = np.pi * (np.arange(count) + 0.5) / count
-    nodes = (1 + np.cos(angles)) / 2
+    turns = np.outer(np.arange(count), 2 * np.arange(count) + 1) % (4 * count)  # whole numbers: no rounding in large angles
+    cosines = np.cos(np.pi / (2 * count) * turns)
+    nodes = (1 + cosines[1]) / 2
     values = np.asarray(surface(nodes[:, np.newaxis], nodes[np.newaxis, :]), dtype=float)
     if values.ndim != 3 or values.shape[:2] != (count, count) or not np.isfinite(values).all():
         raise ValueError(
             f"a surface must map u of shape (n, 1) and w of shape (1, m) to finite points of shape (n, m, 3); "
             f"n = m = {count} gave {values.shape}"
         )
-    cosines = 2.0 / count * np.cos(np.outer(np.arange(count), angles))
-    cosines[0] /= 2
-    coefficients: NDArray[np.float64] = np.einsum("ip,jq,pqd->ijd", cosines, cosines, values, optimize=True)
+    shares = 2.0 / count * cosines
+    shares[0] /= 2
+    along = np.tensordot(shares, values, 1)
+    coefficients: NDArray[np.float64] = np.swapaxes(np.tensordot(shares, along, (1, 1)), 0, 1)
     small = tolerance * max(float(np.abs(values).max()), 1e-300)
     if max(np.abs(coefficients[-3:]).max(), np.abs(coefficients[:, -3:]).max()) > small * np.sqrt(count):
         raise ValueError(
