@@ -129,26 +129,67 @@ class Case:
         if not np.isfinite(answer).all():
             return math.inf
         if self.exercise.accept.get("same set") == 1.0:
-            corners = form == "scattered places"
-            return off_the_quarter(answer, *self.arguments, corners=corners) / self.tolerance
+            return EQUATIONS[self.exercise.id](answer, *self.arguments, form) / self.tolerance
         error = np.abs(answer - expected)
         if self.exercise.parameters:
             error = np.linalg.norm(error, axis=-1)
         return float(error.max(initial=0.0)) / self.tolerance
 
 
-def off_the_quarter(points: Array, r: float, h: float, *, corners: bool) -> float:
-    """How far points are from the quarter cylinder, by its equation x² + y² = r², and the first four from its ``corners``.
-
-    For the one exercise that gives full marks for any parametrisation of the right set.
-    """
+def off_the_quarter(points: Array, r: float, h: float, form: str) -> float:
+    """How far points are from the quarter cylinder, by its equation x² + y² = r², and the first four from its corners."""
     points = points.reshape(-1, 3)
     x, y, z = points.T
     off = [np.abs(np.hypot(x, y) - r).max(), np.maximum(-x, 0).max(), np.maximum(-y, 0).max()]
     off += [np.maximum(-z * np.sign(h), 0).max(), np.maximum(np.abs(z) - abs(h), 0).max()]
-    if corners:
+    if form == "scattered places":  # the first four of these are the corners
         off.append(np.abs(points[:4] - [[r, 0, 0], [r, 0, h], [0, r, 0], [0, r, h]]).max())
     return float(max(off))
+
+
+def off_the_turned(points: Array, profile: Array, h: Array, form: str) -> float:
+    """How far points (ρ, z) are from the profile, a rational Bezier curve; the first four from its ends in the plane y = 0.
+
+    A dense search along the curve, then a ternary search beside the nearest place. Points on one side of the axis only are
+    infinitely far from a whole turn, as are those of a turn the other way.
+    """
+    points = points.reshape(-1, 3)
+    rho = np.hypot(points[:, 0], points[:, 1])
+    mine = np.stack([rho, points[:, 2]], axis=-1)
+
+    def away(t: Array) -> Array:
+        lifted = np.concatenate([np.asarray(profile) * np.asarray(h)[:, None], np.asarray(h)[:, None]], axis=1)
+        rows = [np.broadcast_to(row, (*t.shape, 3)) for row in lifted]
+        while len(rows) > 1:
+            rows = [(1 - t[..., None]) * a + t[..., None] * b for a, b in itertools.pairwise(rows)]
+        curve = rows[0][..., :2] / rows[0][..., 2:]
+        return np.minimum(np.linalg.norm(mine - curve, axis=-1), np.linalg.norm(mine - curve * [-1, 1], axis=-1))
+
+    line = np.linspace(0, 1, 801)
+    nearest = line[np.argmin([away(np.full(len(mine), t)) for t in line], axis=0)]
+    low, high = np.clip(nearest - 1 / 800, 0, 1), np.clip(nearest + 1 / 800, 0, 1)
+    for _ in range(60):
+        a, b = low + (high - low) / 3, high - (high - low) / 3
+        left = away(a) < away(b)
+        low, high = np.where(left, low, a), np.where(left, b, high)
+    off = [float(away((low + high) / 2).max())]
+    if form == "scattered places":  # the first four of these are the corners
+        ends = [(r, 0.0, z) for r, z in np.asarray(profile)[[0, 0, -1, -1]]]
+        off.append(float(np.abs(points[:4] - ends).max()))
+        reach = np.abs(np.asarray(points)[:, :2]).max()
+        sides = [points[:, 0].max(), -points[:, 0].min(), points[:, 1].max(), -points[:, 1].min()]
+        off.append(0.0 if min(sides) > 0.5 * reach else math.inf)
+    if form == "simple fractions":
+        along = points.reshape(FRACTIONS[2] + 1, FRACTIONS[2] + 1, 3)[FRACTIONS[2] // 2]
+        off.append(0.0 if along[1, 1] > 0 else math.inf)
+    return max(off)
+
+
+# Where any parametrisation of the right set gets full marks, the set's own equation decides.
+EQUATIONS: dict[str, Callable[..., float]] = {
+    "nurbs_quarter_cylinder": off_the_quarter,
+    "nurbs_revolve": off_the_turned,
+}
 
 
 def _plain(value: Any) -> Any:
