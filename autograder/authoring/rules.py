@@ -184,9 +184,9 @@ def nothing_scores_nothing(exercise: Exercise, seeds: Sequence[int]) -> Found:
 @_rule("seen", RULES)
 def each_mistake_is_seen(exercise: Exercise, seeds: Sequence[int]) -> Found:
     """A blind data set never decides alone, and no draw of random data may hide a mistake."""
+    data = [(seed, [drawn for drawn in exercise.draw(seed) if not drawn.blind]) for seed in seeds]
     for mistake in exercise.mistakes:
-        for seed in seeds:
-            seeing = [drawn for drawn in exercise.draw(seed) if not drawn.blind]
+        for seed, seeing in data:
             far = {drawn.name: _distance(exercise, mistake.formula, drawn) for drawn in seeing}
             if max(far.values()) <= SEEN:
                 told = ", ".join(f"{distance:.2g} on {name!r}" for name, distance in far.items())

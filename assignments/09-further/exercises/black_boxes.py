@@ -46,7 +46,7 @@ def _ladder(f, g, *, sets=True, area=True, both=True, symmetries=SYMMETRIES, mot
     return "moved" if moved[motion] <= SAME else "different"
 
 
-@lru_cache(maxsize=64)  # the reference and all mistakes are asked about the same two surfaces
+@lru_cache(maxsize=1024)  # the reference and all mistakes are asked about the same two surfaces
 def _measured(f, g):
     """All that the rungs ask for, in sizes of g: distances for each relabelling; from f to g and from g to f as sets; by how much
     the areas differ, in areas of g; what is left after each kind of motion."""
