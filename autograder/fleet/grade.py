@@ -93,10 +93,11 @@ def _chosen(course: Course, assignment: str, students: Iterable[str] | None) -> 
 
 @dataclasses.dataclass(frozen=True)
 class _Task:
-    """A submission to be graded: nothing of it but its name has been read."""
+    """A submission to be graded: nothing of it but its name has been read. ``alone``: for the second time, all else done."""
 
     student: str
     folder: Path
+    alone: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
@@ -112,6 +113,7 @@ class _Landed:
     broken: str = ""
     fault: str = ""
     unwritten: str = ""
+    hurried: bool = False  # stopped by the clock with CPU time left: to be tried again alone
 
 
 class _Run:
@@ -158,18 +160,26 @@ class _Run:
         def work(task: _Task, number: int) -> _Landed:
             return self._one(plan, task)
 
+        hurried: list[_Task] = []
         with Crew(work, min(workers, len(todo)), plan.descriptors) as crew:
             try:
                 for done in crew.each(todo, BATCH_SECONDS):
                     if done is not None:
                         task, landed = done
-                        self._land(_Landed(task.student, fault=str(landed)) if isinstance(landed, Lost) else landed)
+                        if isinstance(landed, Lost):
+                            self._land(_Landed(task.student, fault=str(landed)))
+                        elif landed.hurried:
+                            hurried.append(dataclasses.replace(task, alone=True))
+                        else:
+                            self._land(landed)
                     self._commit(full=False)
             finally:
                 crew.close()
                 for task in crew.unfinished:
                     publish.clear(self._place(task.student))
                 self._commit(full=True)
+        if hurried:
+            self._work(plan, hurried, 1)
 
     def _place(self, student: str) -> Path:
         return self.course.path("autograded", student, self.row.name)
@@ -185,6 +195,8 @@ class _Run:
             log.exception("grading %s failed", task.student)
             fault = str(error) if isinstance(error, SandboxError) else f"{type(error).__name__}: {error}"
             return _Landed(task.student, fault=fault)
+        if outcome.hurried and not task.alone:
+            return _Landed(task.student, hurried=True)
         staged, unwritten = None, ""
         if outcome.files:
             mode = self.course.permissions("Autograde")

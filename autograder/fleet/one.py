@@ -46,13 +46,17 @@ class Plan:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A graded submission: what the gradebook gets, what ``autograded/`` gets, and the report."""
+    """A graded submission: what the gradebook gets, what ``autograded/`` gets, and the report.
+
+    ``hurried``: something was stopped by the clock with CPU time left, so it is worth trying again when nothing else runs.
+    """
 
     student: str
     record: Record
     files: Mapping[str, bytes]
     report: StudentReport
     digest: str
+    hurried: bool = False
 
 
 def grade_one(plan: Plan, student: str, submitted: Submission) -> Outcome:
@@ -74,7 +78,7 @@ def grade_one(plan: Plan, student: str, submitted: Submission) -> Outcome:
         seconds=time.monotonic() - started,
     )  # fmt: skip
     files = {**work.files, **plan.instructor_files, **work.written} if work.written else {}
-    return Outcome(student, Record(student, timestamp, work.marks), files, report, submitted.digest)
+    return Outcome(student, Record(student, timestamp, work.marks), files, report, submitted.digest, work.hurried)
 
 
 class _Work:
@@ -89,6 +93,7 @@ class _Work:
         self.notes = list(submitted.notes)
         self.broken: list[str] = []
         self.faults: list[str] = []
+        self.hurried = False
         unknown = sorted(set(submitted.notebooks) - set(plan.masters))
         self.notes += [f"{name}.ipynb: not a notebook of this assignment, left out" for name in unknown]
 
@@ -111,6 +116,7 @@ class _Work:
             self._unread(name, master, str(error))
             return
         ran = self._run(built, master, digest(data))
+        self.hurried = self.hurried or ran.hurried
         limit.ignore_stderr(built.cells, course.ignore_pattern)
         limit.limit_outputs(built.cells, *course.output_limits)
         given = marks(built, ran)

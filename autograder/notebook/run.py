@@ -8,6 +8,9 @@ An instructor's ordinary test cell runs in a process of its own where that was f
 
 When a cell ends its process (an endless loop, ``os._exit``, too much memory) a fresh session runs the earlier good cells again,
 without their outputs, and the notebook goes on: a submission loses what cannot be run, and no more.
+
+What is stopped by the clock while it has CPU time left (it waits, or the machine is busy) has no mark and asks for a look, and
+so does every later cell that fails: marks must not depend on load. ``Ran.hurried`` says so, that it may be tried again alone.
 """
 
 from __future__ import annotations
@@ -41,6 +44,8 @@ ENDED = {
     "refused": ("Refused", "this cell was not run: the sandbox refused it"),
 }
 SKIP_TAG = "skip-execution"
+HURRIED = "Stopped by the clock before its computing time was used up: no mark, since a busy machine can do that; please look."
+AFTER = "An earlier cell was stopped by the clock before its computing time was used up: no mark; please look."
 
 
 class Result(Protocol):
@@ -72,6 +77,7 @@ class Ran:
     files: dict[str, bytes] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
     restarts: int = 0
+    hurried: bool = False
 
 
 def run(
@@ -129,6 +135,7 @@ def run(
             cell["outputs"], cell["execution_count"] = outputs, count
             ran.cells.append(result)
         ran.files, ran.faults, ran.restarts = runner.files(), runner.faults, runner.restarts
+        ran.hurried = runner.hurried or bool(runner.spent and runner.late)
     shown = limit.Shown()
     for cell, graded in learners:  # once more: what was updated since may have grown
         cell["outputs"] = safe.outputs(shown.cut(cell["outputs"], graded=graded))
@@ -195,11 +202,17 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
     def called(id: str, args: tuple[Any, ...]) -> Any:
         if runner.late:  # a function that sleeps in each of hundreds of calls must not keep the class waiting
             raise SandboxError(runner.spent)
-        return session.call(id, args)
+        try:
+            return session.call(id, args)
+        except CallFailed as failure:
+            if runner.by_clock(failure.kind):
+                raise SandboxError(HURRIED) from None
+            raise
 
     def call(*args: Any) -> Any:
         return called(name, args)
 
+    after = runner.hurried
     try:
         verdict = judge(exercise, call, seed=seed(name), earlier=lambda: before.used_by(name, called))
     except Exception as error:  # the grader's own fault is never the learner's zero
@@ -208,6 +221,9 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
         return CellRun("judged", _unjudged(name, "The judge itself failed, so this could not be judged.", exercise), note)
     if verdict.outcome == "could not judge" and runner.late:
         return CellRun("judged", _unjudged(name, runner.spent, exercise), runner.spent)
+    if runner.hurried and verdict.outcome != "passed":
+        note = AFTER if after else HURRIED
+        return CellRun("judged", _unjudged(name, note, exercise), note)
     if verdict.outcome == "could not judge":
         return CellRun("judged", verdict, runner.fault(f"{name}: {verdict.message}"))
     return CellRun("judged", verdict)
@@ -230,6 +246,7 @@ class _Runner:
         self.restarts = -1  # the first opening is none
         self.faults: list[str] = []
         self.spent = ""
+        self.hurried = False
 
     def ready(self) -> Any:
         """A live session that has run all good cells; None when no restart or no time is left."""
@@ -289,7 +306,18 @@ class _Runner:
             outputs.append(_ended(status if status in ENDED else "died", result.note))
         elif status == "error" and not any(output["output_type"] == "error" for output in outputs):
             outputs.append(_error("Error", result.note or "this cell raised an error"))
+        if self.hurried and status != "ok":
+            return CellRun("not run", note=AFTER), outputs
+        if self.by_clock(status):
+            return CellRun("not run", note=HURRIED), outputs
         return CellRun(status, note=result.note), outputs
+
+    def by_clock(self, status: str) -> bool:
+        """Whether what has just ended so was stopped by the clock with CPU time left; ``hurried`` from then on."""
+        sessions = [self.session, *([self.tests.session] if self.tests is not None else [])]
+        stopped = status == "timeout" and any(getattr(session, "stopped_by_clock", False) for session in sessions)
+        self.hurried = self.hurried or stopped
+        return stopped
 
     def fault(self, note: str) -> str:
         self.faults.append(note)

@@ -51,6 +51,12 @@ class Session:
         return self.ended is None
 
     @property
+    def stopped_by_clock(self) -> bool:
+        """Whether its last stop came by the clock with CPU time left, as when the code waits or the machine is too busy."""
+        why = self.ended if self.ended is not None and self.ended.limit else self.out_of_time
+        return why is not None and why.limit == "wall"
+
+    @property
     def usage(self) -> Usage:
         """What the notebook has used so far; ``max_rss`` is known once the session is over."""
         return Usage(self._process.cpu, time.monotonic() - self._began, self._process.max_rss)

@@ -287,9 +287,10 @@ class Shell(InteractiveShell):
 
     def rehearse_showing(self, value: Any) -> None:
         """Show a value to nobody."""
+        formatter: Any = self.display_formatter
         self.recorder.silent = True
         try:
-            self.display_formatter.format(value)
+            formatter.format(value)
         finally:
             self.recorder.silent = False
 
