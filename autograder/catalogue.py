@@ -32,6 +32,7 @@ BESIDE = "directrix-exercises"
 VARIABLE = "DIRECTRIX_EXERCISES"
 GROUP = "directrix.exercises"
 CONFIG = "nbgrader_config.py"
+WRITTEN = "__directrix_written__"  # when the files of a loaded assignment were written
 SLUG = re.compile(r"(?P<number>\d\d)-(?P<slug>[a-z0-9][a-z0-9-]*)")
 
 
@@ -229,23 +230,30 @@ def _entry(folder: Path) -> Path | None:
 
 
 def _import(entry: Path, name: str) -> ModuleType:
-    if name in sys.modules:
+    written = [(path.name, path.stat().st_mtime_ns, path.stat().st_size) for path in sorted(entry.parent.glob("*.py"))]
+    if name in sys.modules and getattr(sys.modules[name], WRITTEN) == written:
         return sys.modules[name]
+    _forget(name)  # an author changes a file and runs the same cell again
     package = [str(entry.parent)] if entry.name == "__init__.py" else None
     spec = importlib.util.spec_from_file_location(name, entry, submodule_search_locations=package)
     if spec is None or spec.loader is None:
         raise CourseError(f"{entry} cannot be imported")
     module = importlib.util.module_from_spec(spec)
+    setattr(module, WRITTEN, written)
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
     except BaseException as error:
-        for known in [key for key in sys.modules if key == name or key.startswith(f"{name}.")]:
-            del sys.modules[known]
+        _forget(name)
         if not isinstance(error, Exception):
             raise
         raise CourseError(f"{_line(error, entry)}: {type(error).__name__}: {error}") from error
     return module
+
+
+def _forget(name: str) -> None:
+    for known in [key for key in sys.modules if key == name or key.startswith(f"{name}.")]:
+        del sys.modules[known]
 
 
 def _line(error: Exception, entry: Path) -> str:

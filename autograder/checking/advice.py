@@ -132,6 +132,8 @@ def _unknown(f: Any, catalogue: Catalogue, defined: Mapping[str, Any]) -> Card:
         parts.append(("Look at", f"Did you mean {_or(near)}? Then write `def {wanted.signature}:`"))
     else:
         parts.append(("Look at", "Keep the name that stands in the task, and check that one."))
+        away = "An exercise of your own course is known only where its exercises are: beside the notebook, or installed"
+        parts.append(("If it is the name in the task", f"{away}; ask whoever gave you the notebook."))
         parts.append(("There are", ", ".join(one.id for one in catalogue)))
     return Card("not run", f"No exercise {name}", tuple(parts))
 
