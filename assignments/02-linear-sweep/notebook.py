@@ -277,8 +277,8 @@ with once_written():
     aside = np.array([10.0, -20.0, 30.0])
     moved = linear_sweep_points(u, w, arc, a + aside, b + aside)
     holds("moving both points aside changes nothing", sweep, moved)
-    *direction, d = direction_cosines(a, b)
-    holds("it is linear_sweep with their direction", sweep, linear_sweep(u, w, arc, direction, d))
+    *lmn, far = direction_cosines(a, b)
+    holds("it is linear_sweep with their direction", sweep, linear_sweep(u, w, arc, lmn, far))
 
 # %% check="linear_sweep_points"
 check(linear_sweep_points)

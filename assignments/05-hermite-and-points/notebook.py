@@ -13,7 +13,8 @@
 # * Tables have shape `(m, n, 3)`: the first index goes with $u$, the second with $w$, the last is $x, y, z$.
 # * Powers **ascend**: `a[i, j]` multiplies $u^i w^j$. The rival convention is in nearly every book: matrices are printed with $u^3$
 #   first. Where a printed matrix is used, this notebook says so.
-# * Derivatives are $S_u$ and $S_w$; the **twist** is $S_{uw} = \partial^2 S/\partial u\,\partial w$.
+# * Derivatives are $S_u$ and $S_w$; the **twist** is $S_{uw} = \partial^2 S/\partial u\,\partial w$. Their values at the corner
+#   $u = i,\ w = j$ are called $p^u_{ij},\ p^w_{ij},\ p^{uw}_{ij}$ (`pu`, `pw`, `puw`), and the corner itself $p_{ij}$.
 #
 # Run the next cell first.
 
@@ -134,7 +135,8 @@ check(algebraic_eval)
 f4_inside = None  # "positive" or "negative"
 
 # %% [markdown]
-# **Task (hermite_basis).** $F_1, \dots, F_4$ along a new last axis. The printed form, powers descending:
+# **Task (hermite_basis).** $F_1, \dots, F_4$ along a new last axis: `t` of shape `(5, 1)` gives `(5, 1, 4)`. The printed form, powers
+# descending:
 #
 # $$\big[\,t^3\;\; t^2\;\; t\;\; 1\,\big]\; M_F, \qquad M_F = \begin{bmatrix} 2 & -2 & 1 & 1\\ -3 & 3 & -2 & -1\\ 0 & 0 & 1 & 0\\
 # 1 & 0 & 0 & 0\end{bmatrix}$$
@@ -299,8 +301,7 @@ a11 = None  # "p11", "pu00", "pw00" or "puw00"
 
 # %% [markdown]
 # **Task (hermite_to_algebraic).** Return the ascending table `a`, so that `algebraic_eval(u, w, a)` is `hermite_patch(u, w, G)`.
-# `mixed(X, G, Y)` also multiplies a table by matrices: row $i$ of `X` and row $j$ of `Y` make entry $(i, j)$, if `X` is given as
-# `X[:, None]` and `Y` as `Y[None, :]`.
+# `mixed` multiplies a table by matrices, too: `mixed(X[:, None], G, Y[None, :])` is $X\,G\,Y^T$, for $x$, $y$ and $z$ at once.
 
 # %%
 M_F = np.array([[2, -2, 1, 1], [-3, 3, -2, -1], [0, 0, 1, 0], [1, 0, 0, 0]], float)
@@ -398,12 +399,15 @@ with once_written():
     holds("exchanging u and w turns it round", swapped, -n)
     holds("no normal on the collapsed edge, and no NaN", patch_normal(u, 0, tent))
 
+
 # %%
+def tent_patch(u, w):
+    return hermite_patch(u, w, tent)
+
+
+tent_patch.normal = lambda u, w: patch_normal(u, w, tent)  # the picture draws yours
 with once_written():
-    some = np.linspace(0, 1, 5)
-    feet, n = (f(some[:, None], some, tent).reshape(-1, 3) for f in (hermite_patch, patch_normal))
-    pins = {str(k): [foot, foot + arrow] for k, (foot, arrow) in enumerate(zip(feet, n, strict=True))}
-    display(plot.view(lambda u, w: hermite_patch(u, w, tent), curves=pins))
+    display(plot.view(tent_patch, normals=True))
 
 # %% check="patch_normal"
 check(patch_normal)
@@ -435,8 +439,7 @@ def first_column(t):
     return np.stack([np.interp(t, np.linspace(0, 1, 5), x) for x in P[:, 0].T], axis=-1)
 
 
-rest = {f"column {j}": P[:, j] for j in range(1, 4)}
-plot.view(first_column, curves=rest, title="four columns of five points, joined along u")
+plot.view(first_column, net=P, title="five points along u, four along w; in blue the points P[:, 0]")
 
 # %% [markdown]
 # **Task (npoint_patch).** $S = \sum_i\sum_j L_i(u)\,P_{ij}\,L_j(w)$. In `lagrange`, the factor for $k = i$ is left out; `np.delete(nodes,
