@@ -1,81 +1,369 @@
-"""Submissions per second: `directrix grade` beside `nbgrader autograde` with its stock Execute, whole processes.
+"""Submissions per second, CPU per submission and peak memory: `directrix grade` beside nbgrader, otter and the bare sandbox.
 
-    uv run python benchmarks/grading.py [--submissions 20] [--rounds 3] [--workers 0]
+    python benchmarks/grading.py [--submissions 200] [--peer 8] [--rounds 1] [--workers 1 2 4] [--course exercises]
+                                 [--growth 100 1000 5000] [--otter] [--profile]
 
-Both grade the same well-behaved notebooks of A1, in turn, round after round, each time from an ungraded copy of one course.
-Under stock nbgrader `check(...)` refuses to judge (the learner's interpreter would hold the reference), so nbgrader only
-executes the notebooks here and does less work than we do: the ratio is a lower bound. Times depend on the machine; the ratio is
-what is meant to be read.
+Two courses, both made here by nbgrader's own release: ``exercises`` is A1, whose graded cells are ``check(...)``; ``ordinary``
+has cells of asserts, hidden ones among them, as any nbgrader course. All submissions differ. Every figure is that of a whole
+process from its start to its end, children included; CPU is user and system time of the process and of all it started, peak
+memory the largest resident set of one process of it (of the trusted side: the grader's own processes, without the sandbox's).
+
+nbgrader grades one submission after the other at a constant rate, so it is given fewer of them (``--peer``) and its start-up is
+taken off its time, in its favour; ours pays for its own. Under stock nbgrader ``check`` refuses to judge, so in the
+course of exercises nbgrader only executes the notebooks. In the ordinary course it grades, and the tables of both are compared.
+The bare sandbox runs the same cells in the same kind of process, as many at a time, and reads, judges, writes nothing.
+Times depend on the machine and on who else uses it; the ratios are what is meant to be read.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
+import json
 import os
+import resource
 import shutil
-import statistics
+import sqlite3
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from autograder import authoring, demo
 from autograder.fleet import Course
+from autograder.fleet.workers import Crew
+from autograder.notebook.session import opened
 
-ASSIGNMENT = "A1"
-STOCK = "c = get_config()\nc.CourseDirectory.course_id = 'stock'\n"
+STOCK = "c = get_config()\nc.CourseDirectory.course_id = 'bench'\n"
+BARE = "bare sandbox"
 
 
-def prepare(folder: Path, submissions: int) -> None:
-    """A released course with that many different well-behaved submissions."""
-    (made,) = authoring.new_course(folder, (ASSIGNMENT,))
-    released = authoring.release(folder, ASSIGNMENT) / f"{made.slug}.ipynb"
-    wanted = [m for m in demo.cohort(ASSIGNMENT) if m.kind in ("right", "mistake", "partial")]
+@dataclass
+class Figures:
+    """What one whole process took."""
+
+    submissions: int
+    seconds: float
+    cpu: float
+    memory: int
+
+    @property
+    def rate(self) -> float:
+        """Submissions a second."""
+        return self.submissions / self.seconds
+
+
+# ---- the courses
+
+
+def exercises(folder: Path, submissions: int) -> str:
+    """A1 with that many different well-behaved submissions: right, mistaken, partial, in many styles."""
+    (made,) = authoring.new_course(folder, ("A1",))
+    released = authoring.release(folder, "A1") / f"{made.slug}.ipynb"
+    wanted = [m for m in demo.cohort("A1") if m.kind in ("right", "mistake", "partial")]
     for number in range(submissions):
         member = wanted[number % len(wanted)]
-        student = f"{member.student_id}-{number:03d}"
-        demo.submit_one(member, released, Course(folder), ASSIGNMENT, student_id=student)
-        notebook = folder / "submitted" / student / ASSIGNMENT / f"{made.slug}.ipynb"
+        student = f"s{number:05d}"
+        demo.submit_one(member, released, Course(folder), "A1", student_id=student)
+        notebook = folder / "submitted" / student / "A1" / f"{made.slug}.ipynb"
         text = notebook.read_text("utf-8")
-        notebook.write_text(text.replace("import numpy as np", f"import numpy as np  # {number}", 1), "utf-8")  # all different
+        notebook.write_text(text.replace("import numpy as np", f"import numpy as np  # {number}", 1), "utf-8")
+    return "A1"
 
 
-def timed(command: list[str], folder: Path) -> float:
-    """Wall time of a whole process in a folder, which must succeed."""
-    start = time.perf_counter()
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-    result = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=environment)
-    seconds = time.perf_counter() - start
-    if result.returncode:
-        sys.exit(f"{' '.join(command)} failed:\n{result.stderr[-3000:]}")
-    return seconds
+def ordinary(folder: Path, submissions: int) -> str:
+    """An nbgrader course of four numpy tasks with test cells of asserts, hidden tests and partial credit."""
+    tasks = {
+        "area": ("def area(r):\n    return np.pi * r**2", "def area(r):\n    return 2 * np.pi * r"),
+        "unit": ("def unit(v):\n    return v / np.linalg.norm(v)", "def unit(v):\n    return v"),
+        "bezier": (
+            "def bezier(p, t):\n    p = np.asarray(p, float)\n    while len(p) > 1:\n        p = (1 - t) * p[:-1] + t * p[1:]\n"
+            "    return p[0]",
+            "def bezier(p, t):\n    return (1 - t) * p[0] + t * p[-1]",
+        ),
+        "table": (
+            "def table(f, n):\n    return {k: f(k) for k in range(n)}",
+            "def table(f, n):\n    return {k: f(k) for k in range(1, n)}",
+        ),
+    }
+    tests = {
+        "area": "assert np.isclose(area(2), 4 * np.pi)",
+        "unit": "assert np.isclose(np.linalg.norm(unit(np.array([3.0, 4.0]))), 1)",
+        "bezier": "assert np.allclose(bezier([[0, 0], [1, 2], [2, 0]], 0.5), [1, 1])",
+        "table": "float(0.5 * (table(abs, 3).get(2) == 2) + 0.5 * (0 in table(abs, 3)))",
+    }
+    hidden = {name: f"\n### BEGIN HIDDEN TESTS\n{test}\n### END HIDDEN TESTS" for name, test in tests.items()}
+    cells = [_cell("import numpy as np", "setup")]
+    for name, (right, _) in tasks.items():
+        solution = right.replace("\n", "\n    ### BEGIN SOLUTION\n", 1) + "\n    ### END SOLUTION"
+        cells.append(_cell(solution, name, solution=True))
+        twice = tests[name] if name == "table" else tests[name] + hidden[name]
+        cells.append(_cell(twice, f"test-{name}", grade=True, locked=True, points=1))
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    whole = {"nbformat": 4, "nbformat_minor": 5, "metadata": {"kernelspec": kernel}, "cells": cells}
+    (folder / "source" / "ps1").mkdir(parents=True)
+    (folder / "source" / "ps1" / "numbers.ipynb").write_text(json.dumps(whole))
+    (folder / "nbgrader_config.py").write_text(STOCK)
+    _run([sys.executable, "-m", "nbgrader", "generate_assignment", "ps1"], folder)
+    released = json.loads((folder / "release" / "ps1" / "numbers.ipynb").read_text())
+    for number in range(submissions):
+        for cell in released["cells"]:
+            name = cell["metadata"].get("nbgrader", {}).get("grade_id")
+            if name in tasks:
+                wrong = (number >> list(tasks).index(name)) % 4 == 0
+                cell["source"] = f"# {number}\n{tasks[name][wrong]}"
+        place = folder / "submitted" / f"s{number:05d}" / "ps1"
+        place.mkdir(parents=True)
+        (place / "numbers.ipynb").write_text(json.dumps(released))
+    return "ps1"
+
+
+def _cell(source: str, name: str, **flags: Any) -> dict[str, Any]:
+    cell = {"cell_type": "code", "id": name, "metadata": {}, "source": source, "outputs": [], "execution_count": None}
+    if flags:
+        plain = {"grade": False, "solution": False, "locked": False, "task": False, "schema_version": 3, "grade_id": name}
+        cell["metadata"] = {"nbgrader": {**plain, **flags}}
+    return cell
+
+
+COURSES = {"exercises": exercises, "ordinary": ordinary}
+
+
+# ---- measuring
+
+
+def _run(command: list[str], folder: Path) -> Figures:
+    """A whole process in a folder, which must succeed; its memory is watched while it runs."""
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    with tempfile.TemporaryFile() as said:
+        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=said, stderr=said)
+        peak = [0]
+        watcher = threading.Thread(target=_watch, args=(process.pid, peak), daemon=True)
+        watcher.start()
+        process.wait()
+        seconds = time.perf_counter() - start
+        watcher.join()
+        if process.returncode:
+            said.seek(0)
+            sys.exit(f"{' '.join(command)} failed:\n{said.read()[-3000:].decode('utf-8', 'replace')}")
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return Figures(0, seconds, cpu, peak[0])
+
+
+def _watch(pid: int, peak: list[int]) -> None:
+    """The largest resident set of the process, its workers and what it started, without what runs inside a sandbox."""
+    while True:
+        found = [_resident(one) for one in (pid, *_children(pid))]
+        if found[0] is None:
+            return
+        peak[0] = max(peak[0], *(size for size in found if size is not None))
+        time.sleep(0.1)
+
+
+def _children(pid: int) -> list[int]:
+    try:
+        names = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+        return [int(name) for name in names if "bwrap" not in Path(f"/proc/{name}/comm").read_text()]
+    except OSError:
+        return []
+
+
+def _resident(pid: int) -> int | None:
+    try:
+        fields = dict(line.split(":", 1) for line in Path(f"/proc/{pid}/status").read_text().splitlines())
+        return int(fields["VmHWM"].split()[0]) * 1024
+    except (OSError, KeyError):
+        return None
+
+
+def bare(course: Course, assignment: str, workers: int) -> None:
+    """Run the code cells of every submission in the sandbox, nothing else: how fast the sandbox alone can be."""
+    with course.gradebook() as book:
+        row = book.assignment(assignment)
+    masters = course.masters(row)
+    named = [cell.exercise for master in masters.values() for cell in master.graded if cell.exercise]
+    posed = [found for name in named if (found := course.exercise(name)) is not None]
+
+    def work(path: Path, number: int) -> int:
+        cells = json.loads(path.read_bytes())["cells"]
+        with open_session(files) as session:
+            for cell in cells:
+                source = "".join(cell["source"])
+                if cell["cell_type"] == "code" and not source.startswith("check("):
+                    session.run_cell(source)
+        return len(cells)
+
+    notebooks = sorted(path for folder in course.submissions(assignment).values() for path in folder.glob("*.ipynb"))
+    files = course.instructor_files(assignment)
+    with opened(posed, course.packages, None, None) as open_session, Crew(work, workers, {open_session.box.descriptor}) as crew:
+        assert sum(1 for done in crew.each(notebooks) if done is not None) == len(notebooks)
+
+
+def marks(folder: Path) -> list[tuple[Any, ...]]:
+    """Every grade and comment of a gradebook, by names."""
+    query = """select s.student_id, n.name, b.name, b.type, x.auto_score, x.manual_score, x.extra_credit, x.needs_manual_grade
+               from grade x join submitted_notebook sn on x.notebook_id = sn.id join submitted_assignment s
+               on sn.assignment_id = s.id join notebook n on sn.notebook_id = n.id join base_cell b on x.cell_id = b.id"""
+    comments = query.replace("grade x", "comment x").replace(
+        "x.auto_score, x.manual_score, x.extra_credit, x.needs_manual_grade", "x.auto_comment, x.manual_comment, 0, 0"
+    )
+    with sqlite3.connect(folder / "gradebook.db") as connection:
+        return sorted(connection.execute(query).fetchall(), key=repr) + sorted(connection.execute(comments), key=repr)
+
+
+def table(rows: dict[str, Figures], base: str) -> None:
+    """One line for each, with its ratio to the first."""
+    print(f"  {'':34}{'n':>6}{'/s':>9}{'CPU s each':>12}{'MB':>7}{'ratio':>8}")
+    for name, row in rows.items():
+        ratio = row.rate / rows[base].rate
+        memory = f"{row.memory / 1e6:7.0f}" if row.memory else "      -"
+        print(f"  {name:34}{row.submissions:>6}{row.rate:>9.2f}{row.cpu / row.submissions:>12.3f}{memory}{ratio:>7.1f}x")
+
+
+def best(command: list[str], template: Path, scratch: Path, rounds: int, count: int, keep: str = "") -> Figures:
+    """The quickest of some rounds, each on a fresh copy of the course with its first ``count`` submissions."""
+    found = []
+    for number in range(rounds):
+        place = scratch / (keep or f"round{number}")
+        shutil.rmtree(place, ignore_errors=True)
+        shutil.copytree(template, place)
+        for student in sorted((place / "submitted").iterdir())[count:]:
+            shutil.rmtree(student)
+        if "nbgrader" in command:
+            (place / "nbgrader_config.py").write_text(STOCK)
+        figures = _run(command, place)
+        figures.submissions = count
+        found.append(figures)
+        if not keep:
+            shutil.rmtree(place)
+    return min(found, key=lambda one: one.seconds)
+
+
+# ---- otter
+
+
+def otter(scratch: Path, notebook: Path) -> Figures | None:
+    """`otter run` on one submission, in an environment of its own; None with a message where it cannot be had."""
+    place = scratch / "otter"
+    commands = [
+        ["uv", "venv", "-q", str(place)],
+        ["uv", "pip", "install", "-q", "--python", f"{place}/bin/python", "otter-grader", "numpy"],
+    ]
+    try:
+        for command in commands:
+            subprocess.run(command, check=True, capture_output=True, timeout=600)
+    except (OSError, subprocess.SubprocessError) as error:
+        print(f"  otter-grader could not be installed here, so it is left out ({type(error).__name__})")
+        return None
+    work = scratch / "otter-work"
+    (work / "tests").mkdir(parents=True)
+    (work / "tests" / "q1.py").write_text(
+        "OK_FORMAT = True\ntest = {'name': 'q1', 'points': 1, 'suites': [{'cases': [{'code': '>>> bool(area(1) > 3)\\nTrue'}], "
+        "'scored': True, 'setup': '', 'teardown': '', 'type': 'doctest'}]}\n"
+    )
+    shutil.copy(notebook, work / "numbers.ipynb")
+    subprocess.run(["zip", "-qr", "autograder.zip", "tests"], cwd=work, check=False)
+    if not (work / "autograder.zip").exists():
+        shutil.make_archive(str(work / "autograder"), "zip", work, "tests")
+    figures = _run([f"{place}/bin/otter", "run", "-a", "autograder.zip", "numbers.ipynb"], work)
+    figures.submissions = 1
+    return figures
+
+
+# ---- the command
+
+
+def compare(name: str, options: argparse.Namespace, scratch: Path) -> None:
+    """One course: nbgrader, the bare sandbox, ours with each number of workers; then feedback and growth."""
+    template = scratch / name
+    assignment = COURSES[name](template, options.submissions)
+    ours = [sys.executable, "-m", "autograder", "grade", assignment, "--workers"]
+    stock = [sys.executable, "-m", "nbgrader", "autograde", assignment]
+    most = max(options.workers)
+    again = functools.partial(best, template=template, scratch=scratch, rounds=options.rounds)
+    one, many = again(stock, count=1), again(stock, count=options.peer, keep=f"{name}-stock")
+    count = options.peer - 1
+    rows = {"nbgrader autograde, start-up off": Figures(count, many.seconds - one.seconds, many.cpu - one.cpu, many.memory)}
+    for workers in options.workers:
+        keep = f"{name}-ours" if workers == most else ""
+        rows[f"directrix grade, {workers} workers"] = again([*ours, str(workers)], count=options.submissions, keep=keep)
+    sandbox = [sys.executable, __file__, "--bare", assignment, str(most)]
+    rows[f"{BARE}, {most} workers"] = again(sandbox, count=options.submissions)
+    print(f"\n{name}: {assignment}, {options.submissions} different submissions, {os.cpu_count()} processors")
+    table(rows, next(iter(rows)))
+    share = rows[f"directrix grade, {most} workers"].rate / rows[f"{BARE}, {most} workers"].rate
+    print(f"  directrix grade reaches {share:.0%} of what the bare sandbox alone does")
+    graded, stocked = scratch / f"{name}-ours", scratch / f"{name}-stock"
+    if name == "ordinary":
+        theirs = marks(stocked)
+        students = {row[0] for row in theirs}
+        mine = [row for row in marks(graded) if row[0] in students]
+        print(f"  grades and comments of the {len(students)} that both graded: {'equal' if mine == theirs else 'DIFFERENT'}")
+        if options.otter and (figures := otter(scratch, next((graded / "submitted").rglob("*.ipynb")))) is not None:
+            table({"otter run, start-up in it": figures, **rows}, next(iter(rows)))
+    theirs = _run([sys.executable, "-m", "nbgrader", "generate_feedback", assignment], stocked)
+    mine = _run([sys.executable, "-m", "autograder", "feedback", assignment], graded)
+    theirs.submissions, mine.submissions = options.peer, options.submissions
+    table({"nbgrader generate_feedback": theirs, "directrix feedback": mine}, "nbgrader generate_feedback")
+
+
+def growth(counts: list[int], scratch: Path, workers: int) -> None:
+    """Rate and memory of the trusted side as the class grows; the submissions of the ordinary course, which are small."""
+    template = scratch / "growth"
+    assignment = ordinary(template, max(counts))
+    command = [sys.executable, "-m", "autograder", "grade", assignment, "--workers", str(workers)]
+    print("\ngrowth, ordinary course")
+    table({f"{count} submissions": best(command, template, scratch, 1, count) for count in counts}, f"{counts[0]} submissions")
+
+
+def profile(options: argparse.Namespace, scratch: Path) -> None:
+    """Where the trusted side's time goes: cProfile of one process that grades some submissions, the sandbox's time outside."""
+    import cProfile
+    import importlib
+    import pstats
+
+    from autograder.notebook.submission import read_folder
+
+    folder = scratch / "profiled"
+    assignment = COURSES[options.course[0]](folder, options.submissions)
+    module = importlib.import_module("autograder.fleet.grade")
+    course, profiler = Course(folder), cProfile.Profile()
+    with course.gradebook() as book:
+        run = module._Run(course, book, assignment, None, None)
+        with run._plan() as plan:
+            for student, place in course.submissions(assignment).items():
+                profiler.runcall(module.grade_one, plan, student, read_folder(place))
+    pstats.Stats(profiler).sort_stats("tottime").print_stats(40)
 
 
 def main() -> None:
+    if sys.argv[1:2] == ["--bare"]:
+        bare(Course(Path.cwd()), sys.argv[2], int(sys.argv[3]))
+        return
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--submissions", type=int, default=20)
-    parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--workers", type=int, default=0, help="of directrix; 0 means one for each processor")
+    parser.add_argument("--submissions", type=int, default=200, help="for ours and for the bare sandbox")
+    parser.add_argument("--peer", type=int, default=8, help="for nbgrader, whose rate is constant")
+    parser.add_argument("--rounds", type=int, default=1, help="the quickest of so many counts")
+    parser.add_argument("--workers", type=int, nargs="+", default=[1, 2, 4])
+    parser.add_argument("--course", nargs="+", choices=COURSES, default=list(COURSES))
+    parser.add_argument("--growth", type=int, nargs="+", metavar="N", help="classes of these sizes, for example 100 1000 5000")
+    parser.add_argument("--otter", action="store_true", help="install otter-grader in a scratch environment and run it too")
+    parser.add_argument("--profile", action="store_true", help="print where the trusted side's time goes, and nothing else")
     options = parser.parse_args()
-    ours = [sys.executable, "-m", "autograder", "grade", ASSIGNMENT, "--workers", str(options.workers)]
-    theirs = [sys.executable, "-m", "nbgrader", "autograde", ASSIGNMENT]
     with tempfile.TemporaryDirectory() as scratch:
-        template = Path(scratch) / "template"
-        prepare(template, options.submissions)
-        seconds: dict[str, list[float]] = {"directrix grade": [], "nbgrader autograde": []}
-        for number in range(options.rounds):
-            for name, command in (("directrix grade", ours), ("nbgrader autograde", theirs)):
-                course = Path(scratch) / f"{name.split()[0]}{number}"
-                shutil.copytree(template, course)
-                if command is theirs:
-                    (course / "nbgrader_config.py").write_text(STOCK)
-                seconds[name].append(timed(command, course))
-    print(f"{options.submissions} submissions of {ASSIGNMENT}, {options.rounds} rounds in turn, {os.cpu_count()} processors")
-    rates = {name: options.submissions / statistics.median(times) for name, times in seconds.items()}
-    for name, rate in rates.items():
-        print(f"  {name:20s} {rate:8.2f} submissions/s   (rounds: {', '.join(f'{t:.2f} s' for t in seconds[name])})")
-    print(f"  ratio {rates['directrix grade'] / rates['nbgrader autograde']:.1f}")
+        if options.profile:
+            profile(options, Path(scratch))
+            return
+        for name in options.course:
+            compare(name, options, Path(scratch))
+        if options.growth:
+            growth(options.growth, Path(scratch), max(options.workers))
 
 
 if __name__ == "__main__":
