@@ -21,11 +21,28 @@ Mask = NDArray[np.bool_]
 EDGE = 1e-12  # a parameter this far outside [0, 1] is rounding of the caller's; further out is an error
 LARGEST = 1e75  # of a number or coordinate: products of four of them are still floats
 COLLINEAR = 1e-12  # sine of the angle below which two directions are one
+HIGHEST = 64  # order of a derivative: beyond it binomials and powers are no numbers worth having
+
+
+def real(name: str, value: Any) -> Array:
+    """A float64 array of real numbers, NaN and infinity among them, of any shape."""
+    try:
+        given = np.asarray(value)
+        if given.dtype.kind not in "biuf":
+            if given.dtype.kind != "O":
+                raise TypeError(f"an array of {given.dtype}")
+            if any(item is None for item in given.flat):
+                raise TypeError("None stands for no number")
+            given = given.astype(np.float64)
+        return np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        kind = "rows of unequal length" if "inhomogeneous" in str(error) else repr(value)[:60]
+        raise ShapeError(f"{name} must be real numbers; got {kind}.", name=name) from None
 
 
 def array(name: str, value: Any) -> Array:
     """A fresh float64 array of finite real numbers of at most 1e75, of any shape."""
-    given = _real(name, value)
+    given = real(name, value)
     if not np.isfinite(given).all():
         raise NumberError(
             f"{name} must be finite; got {_first_bad(given)}. Look for a division by zero in what made it.", name=name
@@ -188,7 +205,7 @@ def increasing(name: str, value: Any, count: int) -> Array:
 
 def parameter(name: str, value: ArrayLike) -> Array:
     """Parameters in [0, 1], clamped where they are outside by less than 1e-12."""
-    given = _real(name, value)
+    given = real(name, value)
     if given.size == 0:
         return given
     least, most = given.min(), given.max()
@@ -225,11 +242,11 @@ def broadcast(**parameters: Array) -> tuple[int, ...]:
         ) from None
 
 
-def derivative_order(name: str, value: Any, *, most: int | None = None, why: str = "") -> int:
-    """The order of a derivative: a whole number of at least 0, and at most ``most`` where the form is numeric."""
+def derivative_order(name: str, value: Any, *, most: int = HIGHEST, why: str = "") -> int:
+    """The order of a derivative: a whole number of at least 0 and at most ``most``, which is less where the form is numeric."""
     n = whole(name, value)
-    if most is not None and n > most:
-        raise OrderError(f"{name} must be at most {most} here; got {n}. {why}".rstrip(), name=name, got=n)
+    if n > most:
+        raise OrderError(f"{name} must be at most {most} here; got {n!r:.30}. {why}".rstrip(), name=name, got=n)
     return n
 
 
@@ -238,21 +255,6 @@ def spanning(message: str, a: Array, b: Array) -> None:
     long_a, long_b = length(a), length(b)
     if not long_a or not long_b or length(np.cross(a / long_a, b / long_b)) <= COLLINEAR:
         raise DegenerateError(message)
-
-
-def _real(name: str, value: Any) -> Array:
-    try:
-        given = np.asarray(value)
-        if given.dtype.kind not in "biuf":
-            if given.dtype.kind != "O":
-                raise TypeError(f"an array of {given.dtype}")
-            if any(item is None for item in given.flat):
-                raise TypeError("None stands for no number")
-            given = given.astype(np.float64)
-        return np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        kind = "rows of unequal length" if "inhomogeneous" in str(error) else repr(value)[:60]
-        raise ShapeError(f"{name} must be real numbers; got {kind}.", name=name) from None
 
 
 def _first_bad(given: Array) -> str:

@@ -45,7 +45,7 @@ def write(path: str | Path, *forms: Any, resolution: int = 64) -> Path:
     ...     read(write(folder + "/ball.json", Sphere(2)))
     [Sphere(radius=2.0)]
     """
-    path = Path(path)
+    path = _path(path)
     suffix = path.suffix.lower()
     if not forms:
         raise GeometryError("give the forms to write: write(path, surface, ...).")
@@ -68,7 +68,7 @@ def read(path: str | Path) -> list[Any]:
     GeometryError
         If the suffix is neither, or the file cannot be read.
     """
-    path = Path(path)
+    path = _path(path)
     if path.suffix.lower() in STEPS:
         return list(read_step(path))
     if path.suffix.lower() == ".json":
@@ -77,3 +77,9 @@ def read(path: str | Path) -> list[Any]:
         except (OSError, UnicodeDecodeError) as error:
             raise GeometryError(f"{path} cannot be read: {error}.") from None
     raise GeometryError(f"only .json and .step files are read back into forms; got {path.suffix!r}.")
+
+
+def _path(path: str | Path) -> Path:
+    if not isinstance(path, str | Path):
+        raise GeometryError(f"the name of a file must be a str or a pathlib.Path; got {type(path).__name__}.")
+    return Path(path)

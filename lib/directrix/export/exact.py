@@ -114,7 +114,7 @@ def dumps(*forms: Any) -> str:
     >>> loads(text) == [Sphere(0.1)]
     True
     """
-    return json.dumps({"format": FORMAT, "forms": [_written(form) for form in forms]}, allow_nan=False)
+    return json.dumps({"format": FORMAT, "forms": [_one_of_ours(form) for form in forms]}, allow_nan=False)
 
 
 def loads(text: str) -> list[Any]:
@@ -125,6 +125,8 @@ def loads(text: str) -> list[Any]:
     GeometryError
         If the text is no such JSON, or a form in it is one that the library refuses.
     """
+    if not isinstance(text, str):
+        raise GeometryError(f"loads reads the text of a file, a str; got {type(text).__name__}. For a file: read(path).")
     try:
         given = json.loads(text)
     except json.JSONDecodeError as error:
@@ -144,6 +146,12 @@ def _written(value: Any) -> Any:
     if isinstance(value, tuple):
         return {"tuple": [_written(part) for part in value]}
     return value
+
+
+def _one_of_ours(form: Any) -> Any:
+    if not isinstance(form, Frozen):
+        raise ConversionError(f"forms of the library are written to JSON; got {type(form).__name__}.")
+    return _written(form)
 
 
 def _read(value: Any) -> Any:

@@ -18,6 +18,8 @@ WELD = 1e-9  # vertices nearer than this, as a fraction of the size, are one
 
 MISSING = "writing {suffix} needs trimesh: pip install 'directrix[mesh]'"
 
+FINEST = 4096  # cells in each parameter
+
 
 def mesh(form: Surface | Solid, resolution: int = 64) -> tuple[Array, NDArray[np.int64]]:
     """Triangles of a surface, or of the six faces of a solid.
@@ -29,7 +31,7 @@ def mesh(form: Surface | Solid, resolution: int = 64) -> tuple[Array, NDArray[np
     Parameters
     ----------
     form : surface or solid
-    resolution : cells in each parameter, 1 or more
+    resolution : cells in each parameter, 1 to 4096
 
     Returns
     -------
@@ -47,7 +49,8 @@ def mesh(form: Surface | Solid, resolution: int = 64) -> tuple[Array, NDArray[np
     >>> vertices.tolist(), triangles.tolist()
     ([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]], [[0, 2, 3], [0, 3, 1]])
     """
-    checks.whole("resolution", resolution, least=1)
+    if checks.whole("resolution", resolution, least=1) > FINEST:
+        raise GeometryError(f"resolution must be at most {FINEST}, which makes millions of triangles; got {resolution!r:.30}.")
     if isinstance(form, Solid):
         parts = [_grid(face, resolution) for face in form.faces()]
     elif isinstance(form, Surface):

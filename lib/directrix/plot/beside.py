@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from directrix import checks
 from directrix.errors import GeometryError, ShapeError
 from directrix.plot import palette, traces
 from directrix.plot.comparing import LINES, edges_and_lines
@@ -27,8 +28,8 @@ def net_of(f: Callable[..., Any], net: ArrayLike | bool | None) -> Array | None:
         if found is None:
             raise GeometryError(f"net=True draws the control points of the form; {type(f).__name__} has none. Give the points.")
         net = found
-    points = np.asarray(net, dtype=float)
-    if points.ndim not in (2, 3, 4) or points.shape[-1] != 3:
+    points = checks.real("net", net)
+    if points.ndim not in (2, 3, 4) or points.shape[-1] != 3 or not points.size:
         raise ShapeError(f"net must have shape (m, n, 3), or (m, 3) for a polygon; got {points.shape}", got=points.shape)
     return points
 
@@ -46,7 +47,7 @@ def knots_of(f: Callable[..., Any], knots: Sequence[ArrayLike] | bool | None) ->
         knots = [values[(values > 0) & (values < 1)] for values in breaks()]
     if len(knots) != 2:
         raise ShapeError(f"knots must be two lists, values of u and values of w; got {len(knots)}")
-    at_u, at_w = (np.unique(np.asarray(values, dtype=float)) for values in knots)
+    at_u, at_w = (np.unique(checks.real("knots", values)) for values in knots)
     for values in (at_u, at_w):
         if not ((values >= 0) & (values <= 1)).all():
             raise GeometryError("knots must be given as parameters in [0, 1]; stretch them onto it first")
@@ -91,7 +92,12 @@ def further_curves(curves: Mapping[str, Any], samples: int) -> list[dict[str, An
         if callable(one):
             drawn.append(traces.curve(sample(one, t), t, colour=palette.CURVE, name=short(name)))
             continue
-        points = np.asarray(one, dtype=float).reshape(-1, 3)
+        points = checks.real(f"curve {name!r}", one)
+        if points.shape[-1:] != (3,):
+            raise ShapeError(
+                f"curve {name!r} must be points, shape (n, 3), or a function; got {points.shape}", got=points.shape
+            )
+        points = points.reshape(-1, 3)
         if len(points) == 1:
             drawn.append(
                 traces.marks(points, colour=palette.CURVE, size=5, symbol="circle", name=short(name), text=[short(name)])
@@ -103,13 +109,13 @@ def further_curves(curves: Mapping[str, Any], samples: int) -> list[dict[str, An
 
 def measured(points: ArrayLike, deviations: ArrayLike | None) -> dict[str, Any]:
     """Measured points (n, 3) as dots, coloured by their signed deviations (n,) where those are given."""
-    places = np.asarray(points, dtype=float)
+    places = checks.real("points", points)
     if places.ndim != 2 or places.shape[-1] != 3:
         raise ShapeError(f"points must have shape (n, 3); got {places.shape}", got=places.shape)
     drawn = traces.marks(places, colour=palette.INK, size=3.5, symbol="circle", name="measured")
     if deviations is None:
         return drawn
-    off = np.asarray(deviations, dtype=float)
+    off = checks.real("deviations", deviations)
     if off.shape != places.shape[:1]:
         raise ShapeError(f"deviations must have shape ({len(places)},), one a point; got {off.shape}", got=off.shape)
     top = float(np.abs(off[np.isfinite(off)]).max(initial=0.0)) or 1.0

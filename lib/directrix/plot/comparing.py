@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from directrix import checks
 from directrix.errors import ShapeError
 from directrix.plot import palette, traces
 from directrix.plot.sampling import LETTERS, Array, bounds, deviation, grid_normals, size_of
@@ -83,9 +84,7 @@ def comparison(
     letters: Sequence[str] | None = None,
 ) -> dict[str, Any]:
     """:func:`compare` with its arrays still arrays."""
-    axes = [np.asarray(axis, dtype=float) for axis in parameters]
-    if len(axes) not in (1, 2):
-        raise ShapeError(f"a comparison takes the parameters of a curve or of a surface, 1 or 2 axes; got {len(axes)}")
+    axes = _axes(parameters)
     called = tuple(letters) if letters is not None else LETTERS[len(axes)]
     right = _points("expected", expected, axes)
     if yours is None or same:
@@ -296,7 +295,7 @@ def between(axes: list[Array], points: Array, place: Array) -> Array:
 
 def _worst(axes: list[Array], off: Array, worst: Sequence[float] | None) -> Array | None:
     if worst is not None and len(worst) == len(axes):
-        return np.asarray(worst, dtype=float)
+        return checks.real("worst", worst)
     if not np.isfinite(off).any() or np.nanmax(off) <= ROUNDING:
         return None
     index = np.unravel_index(int(np.nanargmax(off)), off.shape)
@@ -344,8 +343,21 @@ def _views(scenes: tuple[str, ...], corner: tuple[float, float, float]) -> dict[
     }  # fmt: skip
 
 
+def _axes(parameters: Sequence[ArrayLike]) -> list[Array]:
+    if not isinstance(parameters, list | tuple) or len(parameters) not in (1, 2):
+        raise ShapeError(
+            "a comparison takes the parameters of a curve or of a surface, a list of 1 or 2 arrays; got "
+            + (f"{len(parameters)} of them" if isinstance(parameters, list | tuple) else type(parameters).__name__)
+        )
+    axes = [checks.real("parameters", axis) for axis in parameters]
+    for axis in axes:
+        if axis.ndim != 1 or not axis.size:
+            raise ShapeError(f"each axis of parameters must be a list of numbers, shape (n,); got {axis.shape}", got=axis.shape)
+    return axes
+
+
 def _points(name: str, given: ArrayLike, axes: list[Array]) -> Array:
-    points = np.asarray(given, dtype=float)
+    points = checks.real(name, given)
     shape = (*(len(axis) for axis in axes), 3)
     if points.shape != shape:
         raise ShapeError(

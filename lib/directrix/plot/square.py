@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from directrix import checks
 from directrix.plot import palette
 
 
@@ -60,7 +61,7 @@ def _lines(running: np.ndarray, held: np.ndarray, colour: str, width: float, alo
 
 
 def _knots(knots: Sequence[ArrayLike]) -> list[dict[str, Any]]:
-    at_u, at_w = (np.unique(np.asarray(values, dtype=float)) for values in knots)
+    at_u, at_w = (np.unique(checks.real("knots", values)) for values in knots)
     ends = np.array([0.0, 1.0])
     return [_lines(ends, at_w, palette.KNOT, 4, True), _lines(ends, at_u, palette.KNOT, 4, False)]
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from directrix import checks
 from directrix.errors import GeometryError
 from directrix.plot import palette, traces
 from directrix.plot.beside import Knots, further_curves, further_surfaces, knot_lines, knots_of, measured, net_of
@@ -295,7 +296,7 @@ def _said(net: Array | None, curves: Mapping[str, Any]) -> str:
 
 
 def _place(mark: Sequence[float], count: int) -> Array:
-    place = np.atleast_1d(np.asarray(mark, dtype=float))
+    place = np.atleast_1d(checks.real("mark", mark))
     if place.shape != (count,) or not ((place >= 0) & (place <= 1)).all():
         wanted = "(u, w)" if count == 2 else "u"
         raise GeometryError(f"mark must be {wanted} in [0, 1]; got {mark!r}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from directrix import checks
 from directrix.errors import GeometryError, ShapeError
 from directrix.plot import palette
 from directrix.plot.sampling import Array
@@ -92,7 +93,9 @@ def walk(
 
 
 def _on(f: Callable[..., Any], places: Array) -> Array:
-    points = np.asarray(f(places[:, 0], places[:, 1]), dtype=float)
+    if not callable(f):
+        raise GeometryError(f"a picture is drawn of a surface or a function f(u, w); got {type(f).__name__}")
+    points = checks.real("f(u, w)", f(places[:, 0], places[:, 1]))
     if points.shape != (len(places), 3):
         raise ShapeError(
             f"for u and w of shape ({len(places)},) the points must have shape ({len(places)}, 3); got {points.shape}",
@@ -103,11 +106,11 @@ def _on(f: Callable[..., Any], places: Array) -> Array:
 
 def _places(path: Callable[[Array], ArrayLike] | ArrayLike, t: Array) -> Array:
     if callable(path):
-        places = np.asarray(path(t), dtype=float)
+        places = checks.real("path(t)", path(t))
         if places.shape != (len(t), 2):
             raise ShapeError(f"path(t) must give places (u, w), shape ({len(t)}, 2); got {places.shape}", got=places.shape)
     else:
-        places = _along(np.asarray(path, dtype=float), t)
+        places = _along(checks.real("path", path), t)
     if not ((places >= -1e-12) & (places <= 1 + 1e-12)).all():
         raise GeometryError("the path must stay in the unit square: u and w from 0 to 1")
     return np.clip(places, 0.0, 1.0)

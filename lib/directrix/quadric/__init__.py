@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from directrix import checks
-from directrix.errors import DegenerateError, ShapeError
+from directrix.errors import DegenerateError, NumberError, ShapeError
 from directrix.frozen import Frozen
 from directrix.quadric.kinds import KINDS, Classification, classified
 from directrix.transform import Transform
@@ -92,7 +92,7 @@ class Quadric(Frozen):
     ) -> None:
         given = zip("ABCDEFGHJK", (A, B, C, D, E, F, G, H, J, K), strict=True)
         self._hold(**{name: checks.number(f"coefficient {name} of a quadric", value) for name, value in given})
-        self._hold(tolerance=checks.not_negative("tolerance", tolerance), size=checks.not_negative("size", size))
+        self._hold(tolerance=_fraction("tolerance", tolerance), size=checks.not_negative("size", size))
 
     def __repr__(self) -> str:
         return f"Quadric({', '.join(f'{value:g}' for value in self.coefficients)})"
@@ -249,7 +249,7 @@ class Quadric(Frozen):
         >>> Quadric(0, 0, 0, 2, 0, 0, 0, 0, -2, 0).classify()      # xy = z: a saddle turned by 45 degrees
         Classification('hyperbolic paraboloid', center=[0. 0. 0.], radii=[ 1.  1. inf])
         """
-        tolerance = self.tolerance if tolerance is None else checks.not_negative("tolerance", tolerance)
+        tolerance = self.tolerance if tolerance is None else _fraction("tolerance", tolerance)
         size = self.size if size is None else checks.not_negative("size", size)
         return classified(self.matrix, tolerance, size)
 
@@ -301,3 +301,13 @@ def _monomials(X: Array) -> tuple[Array, Array]:
         axis=1,
     )
     return terms, slopes
+
+
+def _fraction(name: str, value: float) -> float:
+    """A relative tolerance: at 1 everything would be zero."""
+    given = checks.not_negative(name, value)
+    if given >= 1:
+        raise NumberError(
+            f"{name} must be below 1, a fraction of the largest coefficient; got {given:g}.", name=name, got=given
+        )
+    return given

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from directrix import checks
 from directrix.checks import Array
-from directrix.errors import ShapeError
+from directrix.errors import GeometryError, ShapeError
 from directrix.frozen import Frozen
 from directrix.surfaces.surface import Surface
 
@@ -107,6 +107,8 @@ class Solid(Frozen):
         and w = 1 of a right-handed solid, and in on the others. With ``outward`` those others are swapped (u and w exchanged),
         so that every normal points out; the sign of the volume tells the hand.
         """
+        if not isinstance(outward, bool | np.bool):
+            raise GeometryError(f"outward must be True or False; got {outward!r:.60}.")
         patches = [self._face(axis, end) for axis in range(3) for end in (0, 1)]
         if not outward:
             return tuple(patches)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,6 +21,9 @@ from directrix.transform import Transform
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline, NdBSpline
+
+
+Made = TypeVar("Made", bound="SplineSolid")
 
 
 class SplineSolid(Solid):
@@ -191,7 +194,7 @@ class NurbsHyperpatch(SplineSolid):
         return lift(self.control_net, self.weights)
 
     def _derivatives(self, u: Array, v: Array, w: Array, orders: Orders) -> list[Array]:
-        below = lower(orders)
+        below = cast("Orders", lower(orders))  # triples in, triples out
         parts = [np.moveaxis(part, -1, 0) for part in self._parts(u, v, w, below)]
         return cartesian(dict(zip(below, parts, strict=True)), orders)
 
@@ -213,7 +216,7 @@ def _checked(net: Array, orders: tuple[int, int, int], knots: tuple[Knots, Knots
     return {"control_net": net, "orders": (ku, kv, kw), "knot_vectors": tuple(knot_vector(*given) for given in vectors)}
 
 
-def _moved(solid: SplineSolid, transform: Transform) -> SplineSolid:
+def _moved(solid: Made, transform: Transform) -> Made:
     result = type(solid).__new__(type(solid))
     held = {name: getattr(solid, name) for name in solid._names}
     result._hold(**{**held, "control_net": transform.points(solid.control_net)})

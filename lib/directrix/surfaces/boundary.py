@@ -67,6 +67,7 @@ class Bilinear(Surface):
 
     def is_flat(self, tolerance: float = 1e-12) -> bool:
         """Whether the corners lie in one plane: the volume of their box is at most tolerance times the cube of its size."""
+        tolerance = checks.not_negative("tolerance", tolerance)
         edges = self.corners.reshape(4, 3)[1:] - self.p00
         size = np.abs(edges).max()
         return bool(abs(np.linalg.det(edges / size)) <= tolerance)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +20,7 @@ from directrix import checks
 from directrix.basis import clamped, cox_de_boor, on_knots, spline_span
 from directrix.checks import Array
 from directrix.curves.rational import lift
+from directrix.errors import DomainError
 from directrix.knots import Knots, KnotVector, knot_vector
 from directrix.surfaces.rational import cartesian, lower
 from directrix.surfaces.support import FEW, ScatteredSums, compiled_row, row_of
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
 Sums = Callable[[tuple[int, int]], Array]  # order -> that derivative of the blended coefficients, as planes
+
+
+Made = TypeVar("Made", bound="SplinePatch")
 
 
 class SplinePatch(Surface):
@@ -252,7 +256,7 @@ class NurbsPatch(SplinePatch):
         return lift(self.control_net, self.weights)
 
     def _below(self, orders: Orders) -> Orders:
-        return lower(orders)
+        return cast("Orders", lower(orders))  # pairs in, pairs out
 
     def _points(self, sums: Sums, orders: Orders, out: Array | None = None) -> list[Array]:
         return cartesian({order: sums(order) for order in self._below(orders)}, orders, out)
@@ -286,8 +290,8 @@ def de_boor_point(patch: BSplinePatch | NurbsPatch, u: float, w: float) -> Array
     >>> de_boor_point(BSplinePatch(net, 3, 2), 0.5, 0.5).tolist()
     [1.0, 1.0, 1.0]
     """
-    N_u = cox_de_boor(patch.knots_u, patch.k, float(patch.knot_vector_u.stretch(np.float64(u))))
-    N_w = cox_de_boor(patch.knots_w, patch.l, float(patch.knot_vector_w.stretch(np.float64(w))))
+    N_u = cox_de_boor(patch.knots_u, patch.k, float(patch.knot_vector_u.stretch(np.array(u))))
+    N_w = cox_de_boor(patch.knots_w, patch.l, float(patch.knot_vector_w.stretch(np.array(w))))
     weights = patch.weights if isinstance(patch, NurbsPatch) else np.ones(patch.control_net.shape[:2])
     above, below = np.zeros(3), 0.0
     for i, a in enumerate(N_u):
@@ -310,7 +314,7 @@ def _checked(net: Array, k: int, l: int, knots_u: Knots, knots_w: Knots) -> dict
     }
 
 
-def _made(kind: type, like: Surface, **changed: object) -> Surface:
+def _made(kind: type[Made], like: Surface, **changed: object) -> Made:
     """A form of the same kind with some of its attributes changed; None leaves one as it is."""
     result = kind.__new__(kind)
     given = {name: value for name, value in changed.items() if value is not None}
@@ -318,7 +322,7 @@ def _made(kind: type, like: Surface, **changed: object) -> Surface:
     return result
 
 
-def _swapped(like: SplinePatch, **changed: Array) -> Surface:
+def _swapped(like: Made, **changed: Array) -> Made:
     return _made(
         type(like), like, k=like.l, l=like.k, knot_vector_u=like.knot_vector_w, knot_vector_w=like.knot_vector_u, **changed
     )
@@ -327,6 +331,8 @@ def _swapped(like: SplinePatch, **changed: Array) -> Surface:
 def spline_part(knots: KnotVector, points: Array, u0: float, u1: float) -> tuple[Array, KnotVector]:
     """Control points along axis 0, repeated ones included, and clamped knots of the part [u0, u1]; backwards if u0 > u1."""
     start, end = (float(t) for t in knots.stretch(np.sort([u0, u1])))
+    if start == end:
+        raise DomainError(f"from {u0:g} to {u1:g} is too little to cut: on the knots both are {start:g} to rounding.")
     values = clamped(knots.values, knots.order, start, end)
     same = np.array_equal(values, knots.values)
     part = points if same else on_knots(knots.values, knots.order, points, values)
