@@ -25,7 +25,7 @@ import numpy as np
 from directrix.plot import compare
 from directrix.plot.palette import CONFIG
 
-from autograder.messages import amount, say
+from autograder.messages import amount, number, say
 from autograder.result import Case, Figure, Outcome, Tier, Verdict
 
 PLOTLY = "application/vnd.plotly.v1+json"
@@ -90,8 +90,16 @@ def of(verdict: Verdict, notes: Iterable[tuple[str, str]] = ()) -> Card:
     parts = [(name, " ".join(text for _, text in said)) for name, said in groupby(named, key=itemgetter(0))]
     if not parts and verdict.message:
         parts = [("", verdict.message)]
+    if verdict.terms:
+        parts.append(("Worth", worth(verdict)))
     cases = verdict.cases if verdict.outcome != "not run" else ()
     return Card(verdict.outcome, verdict.title or verdict.exercise, tuple(parts), cases, tuple(notes))
+
+
+def worth(verdict: Verdict) -> str:
+    """The arithmetic of a part of the points, ``0.75 (right on 3 of 4 data sets) × 0.5 (since not on all) = 0.375 ...``."""
+    told = [say("share.term", factor=number(factor), why=why) for why, factor in verdict.terms]
+    return say("share", sum=" × ".join(told), fraction=number(verdict.fraction))
 
 
 def with_parts(shown: Card, parts: Iterable[tuple[str, str]]) -> Card:

@@ -22,6 +22,7 @@ square, such as normals: compared one by one, as nothing is meant by moving or r
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, get_args
@@ -47,6 +48,9 @@ TOLERANCE = 1e-9
 # seam shows that the form is understood; a surface that is merely near or elsewhere shows less.
 TIER_CREDIT: dict[Tier, float] = {"relabelled": 0.5, "other start": 0.5, "close": 0.8}
 SHAPE_CREDIT = 0.5
+# The share of the data sets that are right counts so much where the others are wrong: half of the work is to be right always.
+# Of words and of yes or no nothing counts, or guessing would.
+DATA_CREDIT = 0.5
 # The share kept by a function that is right (or has its mistake's credit) wherever there is an answer, and does not raise
 # ValueError where there is none: it has the geometry, and not yet the care.
 REFUSAL_CREDIT = 0.75
@@ -54,11 +58,15 @@ REFUSAL_CREDIT = 0.75
 
 @dataclass(frozen=True)
 class DataSet:
-    """One named set of arguments. ``blind`` data are known to hide mistakes: shown as a trap, never decisive alone."""
+    """One named set of arguments. ``blind`` data are known to hide mistakes: shown as a trap, never decisive alone.
+
+    ``weight`` is what it counts among the others where only some are right; blind data count nothing.
+    """
 
     name: str
     draw: Callable[[np.random.Generator], Any]
     blind: bool = False
+    weight: float = 1.0
 
     @property
     def says(self) -> str:
@@ -113,6 +121,7 @@ class Exercise:
     spans: Callable[..., Any] | None = None
     allow: tuple[str, ...] = ()
     shape_credit: float = SHAPE_CREDIT
+    data_credit: float = DATA_CREDIT
     personal: bool = False
     public_seed: int | bytes = PUBLIC_SEED
     data_sets: list[DataSet] = field(default_factory=list)
@@ -134,13 +143,20 @@ class Exercise:
         shown = [f"{name}={_readable(self.defaults[name])}" if name in self.defaults else name for name in self.arguments]
         return f"{self.id}({', '.join(shown)})"
 
-    def data(self, draw: Callable[..., Any] | None = None, *, blind: bool = False) -> Any:
-        """Register a data set: a function of ``rng`` that returns the arguments, as a dict or in order as a tuple."""
+    def data(self, draw: Callable[..., Any] | None = None, *, blind: bool = False, weight: float = 1.0) -> Any:
+        """Register a data set: a function of ``rng`` that returns the arguments, as a dict or in order as a tuple.
+
+        Its docstring, where it has one, is what a learner reads of it.
+        """
 
         def register(function: Callable[..., Any]) -> Callable[..., Any]:
             if any(known.name == function.__name__ for known in self.data_sets):
                 raise ExerciseError(f"{self.id}: a data set named {function.__name__!r} exists already; choose another name")
-            self.data_sets.append(DataSet(function.__name__, function, blind))
+            if not 0 <= weight < math.inf:
+                raise ExerciseError(
+                    f"{self.id}: the weight of data set {function.__name__!r} must be 0 or more; got {weight!r}"
+                )
+            self.data_sets.append(DataSet(function.__name__, function, blind, weight))
             return function
 
         return register if draw is None else register(draw)
@@ -238,6 +254,7 @@ def exercise(
     spans: Callable[..., Any] | None = None,
     allow: Sequence[str] = (),
     shape_credit: float = SHAPE_CREDIT,
+    data_credit: float | None = None,
     personal: bool = False,
 ) -> Callable[[Callable[..., Any]], Exercise]:
     """Turn a reference function into an :class:`Exercise`.
@@ -263,6 +280,9 @@ def exercise(
         Packages beyond numpy and plotly that learners may import, ``("scipy",)``.
     shape_credit : float
         The share kept by a function that is right for some shapes of input but not for others.
+    data_credit : float in [0, 1), optional
+        What the share of the data sets that are right is multiplied by where others are wrong: 1/2, and 0 for words, yes or no
+        and masks, unless it is given.
     personal : bool
         Whether the data that a student is shown are his own, drawn from his id and a public word of the course (see
         :mod:`autograder.personal`). Hidden data are each student's own in any case.
@@ -290,11 +310,14 @@ def exercise(
         for tier, credit in (accept or {}).items():
             if tier not in LADDER or not 0 <= credit <= 1:
                 raise ExerciseError(f"{name}: accept maps tiers of the ladder to credit in [0, 1]; got {tier!r}: {credit!r}")
+        some = data_credit if data_credit is not None else 0.0 if kind in ("label", "mask") else DATA_CREDIT
+        if not 0 <= some < 1:
+            raise ExerciseError(f"{name}: data_credit must lie in [0, 1); got {data_credit!r}")
         defaults = {key: value.default for key, value in given.items() if value.default is not value.empty}
         return Exercise(
             id=name, reference=reference, points=float(points), title=title, kind=kind, statement=statement,
-            arguments=arguments, defaults=defaults, accept=dict(accept or {}), tolerance=tolerance, judged_as=judged_as, spans=spans,
-            allow=tuple(allow), shape_credit=shape_credit, personal=personal,
+            arguments=arguments, defaults=defaults, accept=dict(accept or {}), tolerance=tolerance, judged_as=judged_as,
+            spans=spans, allow=tuple(allow), shape_credit=shape_credit, data_credit=some, personal=personal,
         )  # fmt: skip
 
     return declare

@@ -15,6 +15,7 @@ from autograder.comparison.answers import Numbers, Raised
 from autograder.comparison.asking import Asked, ask_all
 from autograder.comparison.gates import Gated, through_gates
 from autograder.comparison.target import Target, targets
+from autograder.diagnosis.credit import product, terms
 from autograder.diagnosis.earlier import Earlier, explained, not_written_earlier, with_earlier
 from autograder.diagnosis.explain import Explanation
 from autograder.diagnosis.figure import figure_of
@@ -32,9 +33,9 @@ from autograder.diagnosis.ladder import (
 )
 from autograder.diagnosis.wording import Parts, pair_written, spoken_answer, worst_finding, worst_index
 from autograder.errors import ExerciseError, SandboxError
-from autograder.exercise import PUBLIC_SEED, REFUSAL_CREDIT, Exercise
+from autograder.exercise import PUBLIC_SEED, Exercise
 from autograder.messages import say
-from autograder.result import GATES, Case, Outcome, Tier, Verdict
+from autograder.result import Case, Outcome, Tier, Verdict
 
 CHEAP: tuple[Tier, ...] = ("identical", "relabelled", "other start", "close")  # these say more than a mistake nearly met
 
@@ -107,7 +108,8 @@ def _verdict(
     rung = overall(findings if all(f.right for f in asked_for) else asked_for)
     handled = not any(one.troubles for one in gated)
     tier: Tier = "mistake" if recognised is not None else "shape" if rung == "identical" and not handled else rung
-    fraction = _fraction(exercise, findings, rung, recognised, handled=handled)
+    worth = terms(exercise, findings, rung, recognised, handled=handled)
+    fraction = product(worth)
     parts = Explanation(shown, hidden, tier, recognised).parts()
     if fraction == 1.0 and tier != "identical":
         told = [("right", text) for part, text in parts if part in ("right", "wrong")]
@@ -129,6 +131,7 @@ def _verdict(
         title=exercise.title,
         symmetries=_symmetries(findings) if tier == "relabelled" else (),
         follows=tuple(one.exercise.id for one in before) if follows else (),
+        terms=worth if 0.0 < fraction < 1.0 else (),
     )
 
 
@@ -162,25 +165,6 @@ def _search(findings: Sequence[Finding], call: Callable[..., Any] | None) -> Non
             search(finding, call if earns else None)
             if finding.tier == "different" and shown in DEAR and not earns:
                 finding.tier = shown  # worth as little; the public data say which it is
-
-
-def _fraction(
-    exercise: Exercise, findings: Sequence[Finding], rung: Tier, recognised: Recognised | None, *, handled: bool
-) -> float:
-    """A recognised mistake's own credit, else the least credit of the tiers; less where some shapes are not handled, and where
-    data that have no answer are not refused."""
-    asked_for = answerable(findings)
-    tiers = [f.tier for f in asked_for if not f.right and (not f.target.drawn.blind or rung == f.tier)]
-    credit = min((0.0 if tier in GATES else exercise.tier_credit(tier) for tier in tiers), default=1.0)
-    if recognised is not None and recognised.mistake.credit is not None:
-        credit = recognised.mistake.credit
-    if recognised is not None and recognised.symmetry is not None:
-        credit *= exercise.tier_credit("relabelled")
-    if recognised is not None and recognised.second is not None:
-        credit *= recognised.second.credit or 0.0
-    if not all(f.right for f in findings if f.target.raises) and len(asked_for) < len(findings):
-        credit *= REFUSAL_CREDIT
-    return float(credit if handled else credit * exercise.shape_credit)
 
 
 def _outcome(fraction: float) -> Outcome:

@@ -66,7 +66,8 @@ class Verdict:
     ``fraction`` in [0, 1] of the exercise's points; ``tier`` the rung of the ladder (or the gate) that decided it;
     ``mistake`` the id of the recognised mistake; ``message`` what the learner reads, which is ``parts`` in order: what is
     right, what is wrong, where, and one thing to look at. ``follows`` names the earlier functions of the notebook whose faults
-    alone explain this one.
+    alone explain this one. ``terms`` is the arithmetic of a part of the points: why, and the factor; their product is the
+    fraction.
     """
 
     exercise: str
@@ -81,6 +82,7 @@ class Verdict:
     title: str = ""
     symmetries: tuple[str, ...] = field(default=())
     follows: tuple[str, ...] = ()
+    terms: tuple[tuple[str, float], ...] = ()
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.fraction <= 1.0:  # also refuses NaN
@@ -117,7 +119,8 @@ class Verdict:
             figure = Figure(**{**figure, "parameters": axes, "worst": _tuple(figure["worst"]), "names": names})
         parts = tuple((key, text) for key, text in data["parts"])
         tuples = {key: tuple(data.get(key, ())) for key in ("symmetries", "follows")}
-        return cls(**{**data, "cases": cases, "figure": figure, "parts": parts, **tuples})
+        terms = tuple((why, factor) for why, factor in data.get("terms", ()))
+        return cls(**{**data, "cases": cases, "figure": figure, "parts": parts, "terms": terms, **tuples})
 
     @classmethod
     def from_json(cls, text: str) -> Verdict:

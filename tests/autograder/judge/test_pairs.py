@@ -1,6 +1,7 @@
-"""Labelled pairs of surfaces: where the judge must place each, with no mistake listed that could name it.
+"""Labelled pairs of surfaces, curves, solids, fields, values, nets, masks and words: where the judge must place each.
 
-Each row is a right surface, an answer, and the tier at which the answer must end.
+Each row is a right answer, another answer, and the tier at which that must end, with no mistake listed that could name it.
+``python tests/autograder/judge/test_pairs.py`` prints the table.
 """
 
 import math
@@ -239,13 +240,128 @@ PAIRS = [
 ]
 
 
+def helix(u, r=2.0, pitch=3.0):
+    return stacked(r * np.cos(TURN * u), r * np.sin(TURN * u), pitch * u)
+
+
+def circle(u, r=2.0):
+    return stacked(r * np.cos(TURN * u), r * np.sin(TURN * u), 0 * u)
+
+
+def block(u, v, w):
+    return stacked(2 * u + 0.3 * v * w, 3 * v + u**2 * w, 4 * w - 0.5 * u * v)
+
+
+def up(u, w):
+    """Unit vectors over the square."""
+    return stacked(0.6 * np.cos(TURN * u), 0.6 * np.sin(TURN * u), 0.8 + 0 * w)
+
+
+def inside(u, w):
+    return np.asarray(u) + np.asarray(w) <= 1
+
+
+CORNERS = np.random.default_rng(3).normal(size=(4, 3, 3))
+ONE = np.eye(4)[1][:, None, None] * np.ones(3)
+
+OTHERS = [
+    ("curve: helix, the same", "curve", helix, lambda u: helix(u), "identical"),
+    ("curve: helix, from the top", "curve", helix, lambda u: helix(1 - u), "relabelled"),
+    ("curve: circle, starts on +y", "curve", circle, lambda u: circle((u + 0.25) % 1), "other start"),
+    ("curve: circle, clockwise from +y", "curve", circle, lambda u: circle((0.25 - u) % 1), "other start"),
+    ("curve: helix, 3.14 for π", "curve", helix, lambda u: stacked(2 * np.cos(6.28 * u), 2 * np.sin(6.28 * u), 3 * u), "close"),
+    ("curve: helix, u squared", "curve", helix, lambda u: helix(u**2), "same set"),
+    ("curve: circle, twice round", "curve", circle, lambda u: circle(2 * u), "covered"),
+    ("curve: circle, degrees", "curve", circle, lambda u: stacked(2 * np.cos(360 * u), 2 * np.sin(360 * u), 0 * u), "covered"),
+    ("curve: helix, half of it", "curve", helix, lambda u: helix(u / 2), "part"),
+    ("curve: helix, one point", "curve", helix, lambda u: helix(0 * u), "part"),
+    ("curve: helix, goes on", "curve", helix, lambda u: helix(1.5 * u), "more"),
+    ("curve: helix, elsewhere", "curve", helix, lambda u: helix(u) + [1, 2, 3], "moved"),
+    ("curve: helix, left-handed", "curve", helix, lambda u: helix(u) * [1, 1, -1], "moved"),
+    ("curve: helix, tilted and u squared", "curve", helix, lambda u: helix(u**2) @ ODD.T, "moved"),
+    ("curve: helix, steeper", "curve", helix, lambda u: helix(u, pitch=4.0), "different"),
+    ("curve: numbers for points", "curve", helix, lambda u: np.asarray(u) * 2, "shape"),
+    ("curve: divided by u", "curve", helix, lambda u: helix(u) * (u / u)[..., None], "not finite"),
+    ("solid: the same", "solid", block, lambda u, v, w: block(u, v, w), "identical"),
+    ("solid: v and w exchanged", "solid", block, lambda u, v, w: block(u, w, v), "relabelled"),
+    ("solid: all round", "solid", block, lambda u, v, w: block(v, w, u), "relabelled"),
+    ("solid: v backwards", "solid", block, lambda u, v, w: block(u, 1 - v, w), "relabelled"),
+    ("solid: rounded", "solid", block, lambda u, v, w: block(u, v, w) * 1.0005, "close"),
+    ("solid: w squared", "solid", block, lambda u, v, w: block(u, v, w**2), "same set"),
+    ("solid: a half", "solid", block, lambda u, v, w: block(u, v, w / 2), "part"),
+    ("solid: one layer", "solid", block, lambda u, v, w: block(u, v, 0 * w), "part"),
+    ("solid: tilted", "solid", block, lambda u, v, w: block(u, v, w) @ ODD.T + [1, 2, 3], "moved"),
+    ("solid: twice as large", "solid", block, lambda u, v, w: 2 * block(u, v, w), "moved"),
+    ("solid: a term is missing", "solid", block, lambda u, v, w: block(u, v, w) - stacked(0 * u, u**2 * w, 0 * v), "different"),
+    ("field: the same", "field", up, lambda u, w: up(u, w), "identical"),
+    ("field: rounded", "field", up, lambda u, w: np.round(up(u, w), 4), "close"),
+    ("field: points to the other side", "field", up, lambda u, w: -up(u, w), "different"),
+    ("field: u backwards means nothing here", "field", up, lambda u, w: up(1 - u, w), "different"),
+    ("mask: the same", "mask", inside, lambda u, w: ~(np.asarray(u) + np.asarray(w) > 1), "identical"),
+    ("mask: strictly inside", "mask", inside, lambda u, w: np.asarray(u) + np.asarray(w) < 1, "different"),
+    ("mask: the other half", "mask", inside, lambda u, w: ~inside(u, w), "different"),
+    ("mask: one answer for all", "mask", inside, lambda u, w: True, "different"),
+    ("net: the same as lists", "net", CORNERS, CORNERS.tolist(), "identical"),
+    ("net: rounded", "net", CORNERS, np.round(CORNERS, 4), "close"),
+    ("net: transposed", "net", CORNERS, CORNERS.transpose(1, 0, 2), "shape"),
+    ("net: a row too many", "net", CORNERS, np.concatenate([CORNERS, CORNERS[:1]]), "shape"),
+    ("net: rows in another order", "net", CORNERS, CORNERS[[2, 0, 3, 1]], "different"),
+    ("net: one row off", "net", CORNERS, CORNERS + ONE, "different"),
+    ("net: off by a factor", "net", CORNERS, 3 * CORNERS, "different"),
+    ("net: not a number", "net", CORNERS, CORNERS * np.where(ONE == 1, np.nan, 1), "not finite"),
+    ("basis: the same", "basis", np.array([0.25, 0.5, 0.25]), [0.25, 0.5, 0.25], "identical"),
+    ("basis: backwards", "basis", np.array([0.1, 0.3, 0.6]), [0.6, 0.3, 0.1], "different"),
+    ("basis: one too few", "basis", np.array([0.1, 0.3, 0.6]), [0.1, 0.9], "shape"),
+    ("value: the same", "value", 0.04, np.array(0.04), "identical"),
+    ("value: rounded", "value", 0.041234, 0.0412, "close"),
+    ("value: twice", "value", 0.04, 0.08, "different"),
+    ("value: a whole number off by one", "value", 48, 49, "different"),
+    ("value: as a word", "value", 48, "48", "different"),
+    ("value: nothing", "value", 0.04, None, "error"),
+    ("value: a tuple, one element off", "value", (1.0, 2.0), (1.0, 3.0), "different"),
+    ("word: the same", "label", "horn", "horn", "identical"),
+    ("word: in capitals", "label", "horn", "Horn", "different"),
+    ("word: another", "label", "horn", "ring", "different"),
+    ("yes or no: the same", "label", True, np.True_, "identical"),
+    ("yes or no: the other", "label", True, False, "different"),
+]
+
+
+def posed(kind, right):
+    """An exercise whose right answer this is: a function of the parameters, or a value."""
+    names = {"surface": "u, w", "curve": "u", "solid": "u, v, w", "field": "u, w", "mask": "u, w"}.get(kind, "a")
+    space = {"right": right if names != "a" else lambda a: right}
+    exec(f"def posed({names}):\n    'Return it.'\n    return right({names})", space)
+    made = exercise(points=1, title="Something", kind=kind)(space["posed"])
+    made.data(lambda rng: {} if names != "a" else {"a": 1.0})
+    return made
+
+
+def judged(kind, right, answer):
+    """The verdict on a pair."""
+    with np.errstate(all="ignore"):
+        return judge(posed(kind, right), answer if callable(answer) else lambda a: answer)
+
+
 @pytest.mark.parametrize(("right", "answer", "tier"), [pair[1:] for pair in PAIRS], ids=[pair[0] for pair in PAIRS])
 def test_the_pair_is_placed(right, answer, tier):
-    def posed(u, w):
-        """Return the surface."""
-        return right(u, w)
-
-    posed = exercise(points=1, title="A surface", kind="surface")(posed)
-    posed.data(lambda rng: {})
-    verdict = judge(posed, answer)
+    """Surfaces."""
+    verdict = judged("surface", right, answer)
     assert verdict.tier == tier, verdict.message
+
+
+@pytest.mark.parametrize(("kind", "right", "answer", "tier"), [pair[1:] for pair in OTHERS], ids=[pair[0] for pair in OTHERS])
+def test_the_other_pair_is_placed(kind, right, answer, tier):
+    """Whatever is no surface."""
+    verdict = judged(kind, right, answer)
+    assert verdict.tier == tier, verdict.message
+
+
+if __name__ == "__main__":
+    rows = [(name, "surface", right, answer, tier) for name, right, answer, tier in PAIRS] + OTHERS
+    wrong = 0
+    for name, kind, right, answer, tier in rows:
+        found = judged(kind, right, answer).tier
+        wrong += found != tier
+        print(f"{name:50s} {tier:14s} {'' if found == tier else 'placed at ' + found}")
+    print(f"{len(rows)} pairs, {len(rows) - wrong} placed as expected")
