@@ -75,11 +75,12 @@ def unit_normal(point: Array, tangent_u: Array, tangent_w: Array) -> tuple[Array
     (normal, regular) : arrays of shape (..., 3) and (...) of bool
     """
     normal = cross(tangent_u, tangent_w)
-    uu, ww, area = dot(tangent_u, tangent_u), dot(tangent_w, tangent_w), dot(normal, normal)  # squares, to save roots
-    if area.size and _plainly_regular(uu, ww, area, point):
+    area = dot(normal, normal)  # squares, to save roots
+    if area.size and _plainly_regular(area, point, tangent_u, tangent_w):
         regular = np.ones(area.shape, dtype=bool)
         scale = 1.0 / np.sqrt(area)
     else:
+        uu, ww = dot(tangent_u, tangent_u), dot(tangent_w, tangent_w)
         tiny = ROUNDING**2 * (uu + ww + dot(point, point))
         regular = (area > PARALLEL**2 * uu * ww) & (uu > tiny) & (ww > tiny)
         scale = np.divide(1.0, np.sqrt(area), out=np.zeros_like(area), where=regular)
@@ -88,11 +89,15 @@ def unit_normal(point: Array, tangent_u: Array, tangent_w: Array) -> tuple[Array
     return normal, regular
 
 
-def _plainly_regular(uu: Array, ww: Array, area: Array, point: Array) -> bool:
-    """Whether the extremes alone show every point to be regular, which spares the test of each; squares as in unit_normal."""
-    most_u, most_w = float(uu.max()), float(ww.max())
-    tiny = ROUNDING**2 * (most_u + most_w + 3 * max(float(point.max()), -float(point.min())) ** 2)
-    return bool(area.min() > PARALLEL**2 * most_u * most_w and uu.min() > tiny and ww.min() > tiny)
+def _plainly_regular(area: Array, *vectors: Array) -> bool:
+    """Whether the extremes alone show every point to be regular, which spares the test of each; squares as in unit_normal.
+
+    |S_u x S_w| <= |S_u| |S_w| bounds the shorter tangent from below by the longest other one.
+    """
+    largest = (max(float(v.max()), -float(v.min())) for v in vectors)
+    point, most_u, most_w = (3 * size * size for size in largest)
+    tiny = ROUNDING**2 * (most_u + most_w + point)
+    return bool(area.min() > max(PARALLEL**2 * most_u * most_w, tiny * most_u, tiny * most_w))
 
 
 def first_form(tangent_u: Array, tangent_w: Array) -> FirstForm:

@@ -32,14 +32,15 @@ def cartesian(parts: dict[Order, Array], orders: Sequence[Order], out: Array | N
     """
     rule = _rule(tuple(orders))
     places = {} if out is None else dict(zip(orders, out, strict=True))
-    inverse, done = 1.0 / parts[rule[0][0]][3], {}
-    scratch = np.empty((3, *inverse.shape)) if len(rule) > 1 else inverse
+    h = parts[rule[0][0]][3]
+    done: dict[Order, Array] = {}
+    scratch = np.empty((3, *h.shape)) if len(rule) > 1 else h
     for k, terms in rule:
         value = parts[k][:3]  # worked on in place: fresh memory costs more here than arithmetic
         for ways, i, rest in terms:
             value -= np.multiply(done[rest], parts[i][3] if ways == 1 else ways * parts[i][3], out=scratch)
-        done[k] = np.multiply(value, inverse, out=places.get(k, value))
-    return [done[order].transpose(*range(1, inverse.ndim + 1), 0) for order in orders]
+        done[k] = np.divide(value, h, out=places.get(k, value))
+    return [done[order].transpose(*range(1, h.ndim + 1), 0) for order in orders]
 
 
 @cache
