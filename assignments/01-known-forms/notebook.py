@@ -116,7 +116,8 @@ with once_written():
     display(plot.view(lambda u, w: cylinder(u, w, r=2, h=5), square=True, mark=(0.75, 0.4)))
 
 # %% [markdown]
-# **Test it yourself.** A formula that must hold needs no model answer. Change $r$ and $h$; try a negative $h$.
+# **Test it yourself.** A formula that must hold needs no model answer. `np.moveaxis` takes $x, y, z$ apart; `holds` compares two
+# sides and prints `yes`, or how far apart they are. Change $r$ and $h$; try a negative $h$.
 
 # %%
 u, w = np.linspace(0, 1, 9)[:, None], np.linspace(0, 1, 9)[None, :]
