@@ -26,7 +26,10 @@ c.Execute.timeout = 5  # seconds of computing for one cell: the sample class has
 def new(
     course: Annotated[
         Path | None,
-        typer.Argument(help="The new folder; with --exercise a course or an assignment folder.", show_default="this folder"),
+        typer.Argument(
+            help="The new folder; with --exercise a course (this folder, if not named) or an assignment folder.",
+            show_default=False,
+        ),
     ] = None,
     assignment: Annotated[list[str] | None, typer.Option(help="Only these assignments (A1, A2, ...); may be repeated.")] = None,
     exercise: Annotated[

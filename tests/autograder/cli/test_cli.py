@@ -28,10 +28,10 @@ def test_the_help_names_every_verb(tmp_path):
     assert [verb for verb in VERBS if verb not in result.stdout] == []
 
 
-@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("verb", [*VERBS, "author check"])
 def test_every_verb_has_help_with_an_example(verb, tmp_path):
     """The example is a line that can be typed as it stands."""
-    result = directrix(verb, "--help", cwd=tmp_path)
+    result = directrix(*verb.split(), "--help", cwd=tmp_path)
     assert result.returncode == 0
     assert f"Example: directrix {verb}" in " ".join(result.stdout.split())
 
@@ -44,6 +44,12 @@ def test_every_verb_has_help_with_an_example(verb, tmp_path):
         (["grade", "A1"], 1, "nbgrader_config.py"),
         (["feedback", "A1"], 1, "nbgrader_config.py"),
         (["release", "A1"], 1, "is not a course"),
+        (["author", "check", "nowhere"], 1, "no such folder: nowhere"),
+        (["author", "check"], 1, "no assignment in"),
+        (["new"], 2, "the folder of the new course"),
+        (["new", "--exercise", "roof"], 1, "neither a course"),
+        (["new", "20-x", "--exercise", "Roof"], 1, "small letters, digits and underscores"),
+        (["new", "20-x", "--exercise", "roof", "--assignment", "A1"], 2, "does not go with --exercise"),
         (["check", "nothing.ipynb"], 1, "no such notebook: nothing.ipynb"),
         (["new", "course", "--assignment", "A99"], 1, "no assignment is called 'A99'; there are: A1"),
     ],
@@ -55,6 +61,24 @@ def test_a_users_error_is_a_plain_line_and_an_exit_code(arguments, code, says, t
     assert result.returncode == code, said
     assert says in said
     assert "Traceback" not in said
+
+
+def test_author_check_tells_a_program_what_it_tells_people(tmp_path):
+    """A spoilt exercise fails, with the rule, what broke it and what to do, and the table as numbers."""
+    authoring.new_exercise(tmp_path / "20-roofs", "roof")
+    path = tmp_path / "20-roofs" / "exercises.py"
+    good = directrix("author", "check", "20-roofs", "--seeds", "2", "--json", cwd=tmp_path)
+    assert good.returncode == 0, good.stderr
+    (told,) = json.loads(good.stdout)
+    (mistake,) = told["exercises"]["roof"]
+    assert (told["assignment"], told["breaches"], mistake["named"]) == ("A20", [], "no_rise")
+    assert mistake["distances"]["one_high"] == 0.0 < mistake["distances"]["lecture"]
+    path.write_text(path.read_text().replace("(blind=True)", ""))
+    bad = directrix("author", "check", "20-roofs", "--seeds", "2", "--json", cwd=tmp_path)
+    assert bad.returncode == 1
+    ((breach,),) = [one["breaches"] for one in json.loads(bad.stdout)]
+    assert (breach["rule"], breach["must"]) == ("blind", True)
+    assert "'one_high' sees no mistake" in " ".join(bad.stderr.split())
 
 
 def test_a_folder_that_is_no_students_id_cannot_steer_the_terminal(surfaces):
