@@ -98,18 +98,11 @@ class SplinePatch(Surface):
     def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
         if np.broadcast(u, w).size <= FEW:
             return self._points(self._sums.few(u, w, self._below(orders)).__getitem__, orders)
-        shape = np.broadcast(u, w).shape
-        u, w = (x.ravel() for x in np.broadcast_arrays(u, w))
-        tour = self._sums.tour(u, w)
-        if tour is not None:
-            u, w = u[tour], w[tour]
+        u, w = np.broadcast_arrays(u, w)
         out = np.empty((len(orders), 3, u.size))
-        for part, found in self._sums.blocks(u, w, self._below(orders)):
+        for part, found in self._sums.blocks(u.ravel(), w.ravel(), self._below(orders)):
             self._points(found.__getitem__, orders, out[..., part])
-        if tour is not None:
-            for plane in out.reshape(-1, u.size):
-                plane[tour] = plane.copy()
-        return [value.T.reshape(*shape, 3) for value in out]
+        return [value.T.reshape(*u.shape, 3) for value in out]
 
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
         if u.size * w.size <= SMALL:

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 FEW = 1000  # points up to which scipy's evaluator, one point after the other, beats the sparse product
 BLOCK = 4096  # points at a time, fewer for high orders: what stays in a processor's cache
-CACHE = 1 << 20  # bytes of windows beyond which it pays to visit neighbouring points one after the other
 
 Order = tuple[int, int]
 
@@ -67,16 +66,6 @@ class ScatteredSums:
         """Row i (n - l + 1) + j holds c[i, j : j + l], one coordinate after the other: shape (m (n - l + 1), d l)."""
         order = self._knots[1].order
         return np.lib.stride_tricks.sliding_window_view(self._net, order, axis=1).reshape(-1, self._net.shape[2] * order)
-
-    def tour(self, u: Array, w: Array) -> Indices | None:
-        """In which order to visit points u (n,), w (n,): along stripes of the parameter square; None where it does not matter.
-
-        The windows of a large net do not fit into a processor's cache; those of neighbouring points are mostly the same.
-        """
-        if self._windows.nbytes <= CACHE:
-            return None
-        place = (u * 255).astype(np.uint16) * 256 + (w * 255).astype(np.uint16)
-        return np.argsort(place, kind="stable")  # of 16-bit numbers: by their digits, in a few nanoseconds a point
 
     def few(self, u: Array, w: Array, orders: Sequence[Order]) -> dict[Order, Array]:
         """The derivatives at parameters that broadcast, one point after the other, as planes (d, ...)."""

@@ -46,10 +46,9 @@ def places(rng, patch, count):
 
 @pytest.fixture
 def small_blocks(monkeypatch):
-    """Every number of points counts as many, every net as large, and blocks are small, the last one not full."""
+    """Every number of points counts as many, and blocks are small, the last one not full."""
     monkeypatch.setattr(spline, "FEW", 0)
     monkeypatch.setattr(support, "BLOCK", 7)
-    monkeypatch.setattr(support, "CACHE", 0)
     monkeypatch.setattr("directrix.surfaces.surface.BLOCK", 20)
 
 
@@ -125,16 +124,6 @@ def test_shapes_of_many_points(shapes):
     for at in list(np.ndindex(found.shape[:-1]))[::97]:
         a, b = (np.broadcast_to(x, found.shape[:-1])[at] for x in (u, w))
         np.testing.assert_allclose(found[at], de_boor_point(patch, float(a), float(b)), atol=1e-13)
-
-
-@pytest.mark.parametrize("size", [20, 100])
-def test_a_large_net_is_visited_in_another_order(size):
-    """Beyond the size of a cache the points are sorted by place; the answers come back in their own order."""
-    rng = np.random.default_rng(7)
-    patch = dx.NurbsPatch(rng.random((size, size, 3)), rng.uniform(0.5, 2, (size, size)), 4, 4)
-    u, w = rng.random((2, 3000))
-    assert (patch._sums.tour(u, w) is None) == (size == 20)
-    np.testing.assert_allclose(patch(u, w)[::100], patch(u[::100], w[::100]), atol=1e-13)
 
 
 @pytest.mark.parametrize("seed", range(40))
