@@ -11,11 +11,14 @@ import contextlib
 import dataclasses
 import datetime
 import hashlib
+import importlib
 import logging
 import os
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from autograder.course import Course
 from autograder.errors import CourseError, SandboxError, SubmissionError
@@ -158,6 +161,7 @@ class _Run:
 
     def _work(self, plan: Plan, todo: list[_Task], workers: int) -> None:
         def work(task: _Task, number: int) -> _Landed:
+            plan.open_session.box.ahead = True
             return self._one(plan, task)
 
         hurried: list[_Task] = []
@@ -293,8 +297,13 @@ class _Run:
         checked = [cell.exercise for master in self.masters.values() for cell in master.graded if cell.exercise]
         exercises = {name: found for name in checked if (found := self.course.exercise(name)) is not None}
         course = self.course
+        drawing = threading.Thread(target=_load_drawing, daemon=True)
+        if exercises:
+            drawing.start()
         with opened(exercises.values(), course.packages, self.required, course.timeout, course.withhold) as open_session:
             self.level = open_session.level
+            if exercises:
+                drawing.join()
             scripts = course.scripts(self.row, self.masters, open_session)
             self.shared = {f"{name}.ipynb: {cell}": why for name in scripts for cell, why in scripts[name].shared.items()}
             yield Plan(
@@ -326,6 +335,12 @@ class _Run:
                 found = self.course.exercise(cell.exercise) if cell.exercise else None
                 if found is not None:
                     yield found
+
+
+def _load_drawing() -> None:
+    """Load what cards are drawn with while the sandbox starts: forked workers then share it, instead of each loading it."""
+    go: Any = importlib.import_module("plotly.graph_objects")
+    go.Figure([go.Surface(), go.Scatter3d(), go.Scatter()], {"scene": {}}).to_dict()
 
 
 def _refreshed(report: StudentReport, marked: Mapping[tuple[str, str], tuple[float | None, bool]]) -> StudentReport:

@@ -59,6 +59,8 @@ class Sandbox:
         self.level = level
         self._bubblewrap = bubblewrap
         self._errors: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 (closed by close)
+        self.ahead = False  # keep one process ready for the next notebook; for those who open one after the other
+        self._ready: _Order | None = None
         self._sessions: set[Session] = set()
         self._lock = threading.Lock()
         self._control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -155,6 +157,8 @@ class Sandbox:
         """End every session and the zygote."""
         for session in self._sessions:
             session.close()
+        if self._ready is not None:
+            self._ready.cancel()
         self._control.close()
         if hasattr(self, "_keeper"):
             self._keeper.join(10)
@@ -216,27 +220,67 @@ class Sandbox:
         return f"level {self.level} is not given on this machine: {said[-1] if said else 'the sandbox did not start'}. {ADVICE}"
 
     def _clone(self, limits: Limits) -> Session:
-        link, job = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
-        report, reporter = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        pidfds: list[int] = []
+        """A process: the one that was ordered ahead, where there is one with these limits, else a new one."""
+        try:
+            with self._lock:
+                order, self._ready = self._ready, None
+            if order is not None and not order.fits(limits):
+                order.cancel()
+                order = None
+            order = order or _Order(self._control, limits)
+            if self.ahead:
+                following = _Order(self._control, limits)
+                with self._lock:
+                    surplus, self._ready = self._ready, following
+                if surplus is not None:  # another thread has ordered one too
+                    surplus.cancel()
+            return Session(order.process(self.level), limits)
+        except OSError as error:
+            raise SandboxError(f"the sandbox is gone: {error}") from None
+
+
+class _Order:
+    """A process asked of the zygote, which clones it while the one who ordered it does something else.
+
+    It has confined nothing and knows nothing until it is given a notebook's files. It belongs to the process that ordered it:
+    in a fork of that, it is nobody's, or two graders would share one learner's process.
+    """
+
+    def __init__(self, control: socket.socket, limits: Limits) -> None:
+        self.limits, self.owner = limits, os.getpid()
+        self.link, job = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
+        self.report, reporter = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         try:
             with job, reporter:
-                socket.send_fds(self._control, [json.dumps(limits.for_child()).encode()], [job.fileno(), reporter.fileno()])
-            report.settimeout(START_SECONDS)
-            said, pidfds, *_ = socket.recv_fds(report, 4096, 1, socket.MSG_CMSG_CLOEXEC)
+                socket.send_fds(control, [json.dumps(limits.for_child()).encode()], [job.fileno(), reporter.fileno()])
+        except BaseException:
+            self.cancel()
+            raise
+
+    def fits(self, limits: Limits) -> bool:
+        """Whether it may be used here, under these limits."""
+        return self.limits == limits and self.owner == os.getpid()
+
+    def process(self, level: str) -> Process:
+        """The process, as soon as it is there."""
+        pidfds: list[int] = []
+        try:
+            self.report.settimeout(START_SECONDS)
+            said, pidfds, *_ = socket.recv_fds(self.report, 4096, 1, socket.MSG_CMSG_CLOEXEC)
             if not pidfds:
-                raise SandboxError(
-                    f"no process for a notebook: {json.loads(said or b'{}').get('refused', 'the zygote has died')}"
-                )
-            return Session(Process(link, report, pidfds[0], limits, self.level), limits)
-        except BaseException as error:
-            for thing in (link, report):
-                thing.close()
+                why = json.loads(said or b"{}").get("refused", "the zygote has died")
+                raise SandboxError(f"no process for a notebook: {why}")
+            return Process(self.link, self.report, pidfds[0], self.limits, level)
+        except BaseException:
+            self.cancel()
             for pidfd in pidfds:
                 os.close(pidfd)
-            if isinstance(error, OSError):
-                raise SandboxError(f"the sandbox is gone: {error}") from None
             raise
+
+    def cancel(self) -> None:
+        """Let go of it; the zygote ends what nobody holds."""
+        self.link.close()
+        self.report.close()
 
 
 ADVICE = "`directrix doctor` shows what is missing and what to do"

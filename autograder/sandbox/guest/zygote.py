@@ -13,6 +13,7 @@ import json
 import os
 import select
 import shutil
+import signal
 import socket
 import sys
 import warnings
@@ -48,6 +49,7 @@ class Zygote:
     def __init__(self, control: socket.socket, level: str, preload: list[str]) -> None:
         self.control, self.level = control, level
         self.jobs: dict[int, tuple[int, socket.socket, str]] = {}  # by pidfd: pid, socket for the report, scratch folder
+        self.abandoned: dict[int, int] = {}  # pidfds by the socket for the report: when its other end is closed, nobody asks
         self.poller = select.poll()
         self.poller.register(control, select.POLLIN)
         self.count = 0
@@ -64,9 +66,14 @@ class Zygote:
         """Until the trusted side goes away."""
         while True:
             for descriptor, _ in self.poller.poll():
-                if descriptor != self.control.fileno():
+                if descriptor in self.jobs:
                     self.report(descriptor)
                     continue
+                if descriptor in self.abandoned:
+                    self.abandon(descriptor)
+                    continue
+                if descriptor != self.control.fileno():
+                    continue  # of a process that was reported in this round
                 message, descriptors, *_ = socket.recv_fds(self.control, 65536, 2, socket.MSG_CMSG_CLOEXEC)
                 if not message:
                     return
@@ -97,13 +104,24 @@ class Zygote:
         handle = os.pidfd_open(pid)
         self.jobs[handle] = (pid, reporter, scratch)
         self.poller.register(handle, select.POLLIN)
+        self.abandoned[reporter.fileno()] = handle
+        self.poller.register(reporter, 0)  # a hang-up is always told
         with contextlib.suppress(OSError):
             socket.send_fds(reporter, [b"{}"], [handle])
+
+    def abandon(self, reporter: int) -> None:
+        """End a process whose grader has gone, whatever it is doing."""
+        handle = self.abandoned.pop(reporter)
+        self.poller.unregister(reporter)
+        with contextlib.suppress(OSError):
+            signal.pidfd_send_signal(handle, signal.SIGKILL)
 
     def report(self, handle: int) -> None:
         """A child has ended: tell how, and what it used."""
         pid, reporter, scratch = self.jobs.pop(handle)
         self.poller.unregister(handle)
+        if self.abandoned.pop(reporter.fileno(), None) is not None:
+            self.poller.unregister(reporter)
         os.close(handle)
         _, status, used = os.wait4(pid, 0)
         end = {"status": status, "cpu": used.ru_utime + used.ru_stime, "max_rss": used.ru_maxrss * 1024}

@@ -2,7 +2,9 @@
 
 import gc
 import os
+import select
 import signal
+import socket
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -12,8 +14,9 @@ import numpy as np
 import pytest
 
 from autograder.errors import IsolationError, SandboxError
-from autograder.sandbox import Limits, Policy, Sandbox
+from autograder.sandbox import Limits, Policy, Sandbox, wire
 from autograder.sandbox import launcher as launching
+from autograder.sandbox.process import Action
 
 SMALL = Policy(packages=(), preload=())
 
@@ -267,3 +270,45 @@ def test_limits_of_zero_files_still_open(sandbox):
     with sandbox.open(limits=Limits(files=0)) as session:
         session.run_cell("open('x', 'w').write('x')")
         assert session.files() == {}
+
+
+def test_a_process_is_ready_ahead_and_each_is_used_once():
+    """The next notebook's process is cloned while this one runs; it is another process, with nothing of this one in it."""
+    with Sandbox(SMALL) as box:
+        box.ahead = True
+        seen = []
+        for _ in range(4):
+            with box.open() as session:
+                assert session.run_cell("'left' in globals()").outputs[0]["data"]["text/plain"] == "False"
+                session.run_cell("left = 1")
+                seen.append(box._ready)
+                assert box._ready is not None
+        assert len({id(order) for order in seen}) == 4
+        box.ahead = False
+
+
+def test_a_process_that_was_ordered_is_of_no_use_under_other_limits_or_in_a_fork(monkeypatch):
+    with Sandbox(SMALL) as box:
+        box.ahead = True
+        box.open().close()
+        order = box._ready
+        assert order.fits(Limits())
+        assert not order.fits(Limits(cell_cpu=1.0))
+        monkeypatch.setattr(os, "getpid", lambda: -1)
+        assert not order.fits(Limits())
+        monkeypatch.undo()
+
+
+def test_the_process_of_a_grader_that_has_gone_is_ended():
+    """Its socket for the report closed, a notebook that computes for ever is killed by the zygote."""
+    with Sandbox(SMALL) as box:
+        session = box.open()
+        process = session._process
+        process._send(
+            wire.frame(wire.CELL, bytes(16), wire.encode(("while True: pass", 60.0, 60.0, 1000, 10))),
+            Action("a cell", 60.0, 60.0, 1000),
+        )
+        process._report.shutdown(socket.SHUT_RDWR)  # as when the grader has gone
+        poll = select.poll()
+        poll.register(process._pidfd, select.POLLIN)
+        assert poll.poll(10_000)
