@@ -41,7 +41,7 @@ OUTCOMES: dict[Outcome, tuple[str, str, str]] = {
 TIERS: dict[Tier, tuple[str, str]] = {
     "identical": ("✓", "right"),
     "mistake": ("✗", "a known slip"),
-    "relabelled": ("⇄", "right, but u and w are labelled otherwise"),
+    "relabelled": ("⇄", "right, but its parameters are labelled otherwise"),
     "other start": ("↻", "right, but starts elsewhere"),
     "close": ("≈", "close, not equal"),
     "same set": ("≅", "right set of points, traced otherwise"),
@@ -66,6 +66,7 @@ STYLE_PROPERTIES = frozenset(
         "white-space",
     }
 )  # fmt: skip
+SHORT = 34  # characters of a cell of the table that stay on one line
 LONGEST = 1200  # characters of one part
 LONGEST_NOTE = 2400
 FIGURE_KINDS = frozenset({"surface", "scatter3d"})
@@ -98,8 +99,11 @@ def of(verdict: Verdict, notes: Iterable[tuple[str, str]] = ()) -> Card:
 
 def worth(verdict: Verdict) -> str:
     """The arithmetic of a part of the points, ``0.75 (right on 3 of 4 data sets) × 0.5 (since not on all) = 0.375 ...``."""
+    fraction = number(verdict.fraction)
+    if len(verdict.terms) == 1:
+        return say("share.one", fraction=fraction, why=verdict.terms[0][0])
     told = [say("share.term", factor=number(factor), why=why) for why, factor in verdict.terms]
-    return say("share", sum=" × ".join(told), fraction=number(verdict.fraction))
+    return say("share", sum=" × ".join(told), fraction=fraction)
 
 
 def with_parts(shown: Card, parts: Iterable[tuple[str, str]]) -> Card:
@@ -285,11 +289,14 @@ def _table(cases: Sequence[Case]) -> str:
     if said := _all_alike(cases):
         return f'<div style="margin: 3px 0"><b>Data sets:</b> {_escape(said)}</div>'
     columns = _columns(cases)
-    head = "".join(_cell(name, "th") for name in columns)
+    letters = {told["at"].rsplit(" = ", 1)[0] for case in cases if "at" in (told := _worst_of(case))}
+    at = letters.pop() if len(letters) == 1 else ""  # said once, in the head
+    head = "".join(_cell(f"at {at}" if at and name == "at" else name, "th") for name in columns)
     plain = '<tr style="background-color: transparent">'  # JupyterLab would stripe the rows
     rows = [f"{plain}{head}</tr>"]
     for name, case in _named(cases):
         cells = {"data set": name, "result": _result_of(case), **_worst_of(case)}
+        cells["at"] = cells.get("at", "").removeprefix(f"{at} = ")
         rows.append(plain + "".join(_cell(cells.get(name, "")) for name in columns) + "</tr>")
     return (
         '<div style="overflow-x: auto; margin: 8px 0 0 0"><table style="border-collapse: collapse; font-size: 13px; '
@@ -333,7 +340,10 @@ def _columns(cases: Sequence[Case]) -> list[str]:
 def _cell(text: str, tag: str = "td") -> str:
     line = "border-bottom: 1px solid rgba(128, 128, 128, 0.35)"
     weight = "bold" if tag == "th" else "normal"
-    style = f"font-weight: {weight}; text-align: left; vertical-align: top; padding: 2px 14px 2px 0; {line}"
+    wrap = "nowrap" if len(text) <= SHORT else "normal"
+    style = (
+        f"font-weight: {weight}; white-space: {wrap}; text-align: left; vertical-align: top; padding: 2px 14px 2px 0; {line}"
+    )
     return f'<{tag} style="{style}">{_escape(text)}</{tag}>'
 
 
@@ -401,8 +411,13 @@ def _escape(text: str) -> str:
 
 
 def _marked_up(text: str) -> str:
-    """Escaped text in which `code` is set as code."""
+    """Escaped text in which `code` is set as code, and a *word* with stress."""
     pieces = _clean(text, LONGEST).split("`")
     if len(pieces) % 2 == 0:  # a backtick without its partner is only a backtick
-        return _escape("`".join(pieces))
-    return "".join(f"<code>{_escape(piece)}</code>" if i % 2 else _escape(piece) for i, piece in enumerate(pieces))
+        return _stressed("`".join(pieces))
+    return "".join(f"<code>{_escape(piece)}</code>" if i % 2 else _stressed(piece) for i, piece in enumerate(pieces))
+
+
+def _stressed(text: str) -> str:
+    """Escaped text with *words* between asterisks in italics; a product such as 2*x*y stays what it is."""
+    return re.sub(r"(?<![\w*)\]])\*(\w(?:[\w -]*\w)?)\*(?![\w*(\[])", r"<em>\1</em>", _escape(text))

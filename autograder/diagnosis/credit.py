@@ -72,5 +72,6 @@ def _by_data(exercise: Exercise, asked_for: Sequence[Finding]) -> list[tuple[str
     even = len(set(weights.values())) == 1
     told = (len(weights) - len(wrong), len(weights)) if even else (right, whole)
     facts = {"right": number(told[0]), "of": number(told[1])}
-    key = "share.data" if even else "share.data_weighted"
+    blind = len(seeing) < len(asked_for)
+    key = ("share.data_seeing" if blind else "share.data") if even else "share.data_weighted"
     return [(say(key, **facts), right / whole), (say("share.partly"), exercise.data_credit)]

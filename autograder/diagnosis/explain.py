@@ -334,7 +334,7 @@ class Explanation:
         if 0 < len(wrong) < len(where.coordinates):
             key = "fact.coordinates_wrong" if len(wrong) > 1 else "fact.coordinate_wrong"
             text = say("wrong.different", noun=self.noun, amount=away)
-            return [text, say(key, names=listing(wrong))], say("look.coordinate", names=listing(wrong))
+            return [text, say(key, names=listing(wrong))], look or say("look.coordinate", names=listing(wrong))
         if where.inside_only and len(names) > 1:
             return [say("wrong.different_inside", amount=away)], say("look.inside")
         if len(where.corners) == where.all_corners and not where.sides:

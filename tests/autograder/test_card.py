@@ -264,3 +264,27 @@ def test_gaps_and_bounded_numbers_are_let_through():
     """The neighbours of what is refused: NaN inside a typed array is a gap, None in a list too."""
     built = {"data": [{"type": "surface", "z": typed(1, np.nan), "x": [None, 1.5]}], "layout": {"title": "x"}}
     assert card.validated(built) == built
+
+
+def test_a_stressed_word_is_set_in_italics_and_a_product_is_not():
+    """Hints are written in Markdown's way; what a learner's own error says is left alone."""
+    parts = (("look", "Here the *shape* says it, 2*x*y and u *= 2 do not; `a *b* c` is code."),)
+    shown = card.html(verdict(parts=parts))
+    assert "the <em>shape</em> says" in shown
+    assert "2*x*y and u *= 2" in shown
+    assert "<code>a *b* c</code>" in shown
+
+
+def test_a_single_reason_needs_no_sum():
+    """One factor is the share itself; several are multiplied out."""
+    one = verdict("partial", fraction=0.5, terms=(("this slip", 0.5),))
+    assert "Worth: 0.5 of the points (this slip)." in card.text(one)
+    two = verdict("partial", fraction=0.375, terms=(("right on 3 of 4 data sets", 0.75), ("since not on all", 0.5)))
+    assert "Worth: 0.75 (right on 3 of 4 data sets) × 0.5 (since not on all) = 0.375 of the points." in card.text(two)
+
+
+def test_the_letters_of_a_place_stand_in_the_head_of_the_table():
+    """Each row then holds its numbers on one line."""
+    shown = card.html(verdict(cases=(Case("a", "different", 0.1, (0.5, 1.0), "(1, 2, 3)", "(1, 2, 4)"),)))
+    assert ">at (u, w)</th>" in shown
+    assert ">(0.5, 1)</td>" in shown

@@ -82,7 +82,10 @@ def test_weights_decide_what_a_data_set_counts():
 def test_blind_data_count_nothing():
     """Who is right on blind data alone has no share; who is wrong on them alone loses none of the others."""
     assert judged(sheet(blind=(0, 1)), wrong_on(2, 3)).fraction == 0.0
-    assert judged(sheet(blind=(0,)), wrong_on(3)).terms[0] == ("right on 2 of 3 data sets", 2 / 3)
+    assert judged(sheet(blind=(0,)), wrong_on(3)).terms[0] == (
+        "right on 2 of 3 data sets; blind ones do not count",
+        2 / 3,
+    )
 
 
 def test_what_is_learnt_by_heart_counts_nothing():
@@ -169,6 +172,6 @@ def test_the_sum_adds_up_for_every_listed_mistake(one):
         assert all(why for why, _ in verdict.terms), verdict.terms
         assert math.isclose(math.prod(factor for _, factor in verdict.terms), verdict.fraction, rel_tol=1e-12)
         if mistake.credit is not None and verdict.mistake == mistake.id:
-            assert verdict.terms[0] == ("for this slip", mistake.credit)
+            assert verdict.terms[0] == ("this slip", mistake.credit)
         again = Verdict.from_json(verdict.to_json())
         assert again == verdict

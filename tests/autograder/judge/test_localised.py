@@ -101,7 +101,12 @@ CASES = [
         lambda k, n: k == n,
         "right where k and n are equal, and wrong where k and n differ.",
     ),
-    (("P",), [(NET,), (NET[:2],)], lambda P: len(P) == 3, "P has as many points one way as the other"),
+    (
+        ("P",),
+        [(NET,), (NET[:2],)],
+        lambda P: len(P) == 3,
+        "right where P has as many rows as columns, and wrong where P has unequal numbers of rows and columns.",
+    ),
     (("d",), [(2.0,), (-2.0,), (1.0,)], lambda d: d > 0, "right where d is not negative, and wrong where d is negative."),
     (("d",), [(2.0,), (0.0,), (1.0,)], lambda d: d != 0, "right where d is not 0, and wrong where d is 0."),
     (("v",), [(np.eye(3)[1],), (np.ones(3),)], lambda v: v[0] == 0, "right where v has length 1"),
@@ -120,7 +125,7 @@ def test_what_parts_the_data_sets(arguments, sets, right, said):
 
     verdict = judged(make(arguments, *sets), answer)
     assert said in verdict.part("right"), verdict.message
-    assert f"with {' and '.join(arguments)}" in verdict.part("look")
+    assert verdict.part("look").startswith(f"Follow {' and '.join(arguments)} through your function")
 
 
 def test_a_property_that_does_not_part_them_is_not_told():
