@@ -301,5 +301,5 @@ def inspection() -> Titled:
 
 def fitted(found: Any) -> Any:
     """The fitted form, and the measured points coloured by their residuals."""
-    title = f"{found.value:.3g} wide, about an {type(found.form).__name__}"
+    title = f"a zone {found.value:.3g} wide about a {type(found.form).__name__.removeprefix('Ideal').lower()}"
     return view(found.surface(), points=found.points, deviations=found.residuals, title=title)

@@ -34,6 +34,13 @@ def net_of(f: Callable[..., Any], net: ArrayLike | bool | None) -> Array | None:
     return points
 
 
+def closed_axes(f: Callable[..., Any]) -> list[bool]:
+    """Along which axes of its net a form uses the first control points again: where its knots are periodic."""
+    one, two, three = getattr(f, "knot_vector", None), getattr(f, "knot_vector_u", None), getattr(f, "knot_vectors", None)
+    vectors = [one] if one is not None else [two, getattr(f, "knot_vector_w", None)] if two is not None else three or []
+    return [bool(getattr(vector, "wrap", 0)) for vector in vectors]
+
+
 def knots_of(f: Callable[..., Any], knots: Sequence[ArrayLike] | bool | None) -> Knots | None:
     """Where knot lines are to be drawn, values of u and of w: those given, or for True the form's own between 0 and 1."""
     if knots is None or knots is False:

@@ -115,10 +115,16 @@ def curve(
     }
 
 
-def net(points: Array, *, scene: str = "scene") -> list[Trace]:
-    """A control net (m, n, 3), or (l, m, n, 3), or a polygon (m, 3): thin lines and dots that tell their index."""
-    axes = range(points.ndim - 1)
-    curves = [one for axis in axes for one in np.moveaxis(points, axis, -2).reshape(-1, points.shape[axis], 3)]
+def net(points: Array, closed: Sequence[bool] = (), *, scene: str = "scene") -> list[Trace]:
+    """A control net (m, n, 3), or (l, m, n, 3), or a polygon (m, 3): thin lines and dots that tell their index.
+
+    ``closed`` says along which axes the last point is joined to the first, as periodic knots join them.
+    """
+    curves: list[Array] = []
+    for axis in range(points.ndim - 1):
+        lines = np.moveaxis(points, axis, -2).reshape(-1, points.shape[axis], 3)
+        round_again = axis < len(closed) and closed[axis]
+        curves += list(np.concatenate([lines, lines[:, :1]], axis=1) if round_again else lines)
     index = [f"P[{', '.join(map(str, at))}]" for at in np.ndindex(points.shape[:-1])]
     dots = marks(points.reshape(-1, 3), colour=palette.NET, size=3.5, symbol="circle", name="control points", scene=scene)
     dots |= {"text": index, "hoverinfo": "text", "hovertemplate": f"<b>%{{text}}</b><br>{POINT}<extra></extra>"}

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from directrix import checks
 from directrix.errors import GeometryError
 from directrix.plot import palette, traces
-from directrix.plot.beside import Knots, further_curves, further_surfaces, knot_lines, knots_of, measured, net_of
+from directrix.plot.beside import Knots, closed_axes, further_curves, further_surfaces, knot_lines, knots_of, measured, net_of
 from directrix.plot.comparing import FARTHER, LINES, comparison, edges_and_lines, letters
 from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, size_of
 from directrix.plot.scene import Box, coloured, layout, legend, scene, short, word
@@ -123,7 +123,8 @@ def view(
             f, title, samples, lines, colour=colour, normals=normals, square=square, mark=mark, knots=knots_of(f, knots)
         )
     polygon = net_of(f, net)
-    extra = further_surfaces(also, samples) + ([] if polygon is None else traces.net(polygon))
+    closed = closed_axes(f) if net is True else []
+    extra = further_surfaces(also, samples) + ([] if polygon is None else traces.net(polygon, closed))
     extra += further_curves(curves or {}, samples) + ([] if points is None else [measured(points, deviations)])
     if extra:
         built["data"] += extra

@@ -258,3 +258,45 @@ def test_a_figure_is_built_unchecked_of_valid_parts(options):
         for change in (figure.update_layout, figure.data[0].update, figure.layout.update):
             with pytest.raises(ValueError, match="nonsense"):
                 change(nonsense=1)
+
+
+def _words(figure):
+    """The letters of a figure and where they stand."""
+    (trace,) = [t for t in figure.data if t.type == "scatter3d" and t.mode == "text"]
+    return dict(zip(trace.text, np.stack([trace.x, trace.y, trace.z], axis=-1).tolist(), strict=True))
+
+
+@pytest.mark.parametrize("form", [dx.Sphere(2), dx.Torus(3, 1), dx.Cylinder(1, 2), dx.Cone(1, 0, 2), dx.Plane(*np.eye(3))])
+def test_both_letters_stand_off_their_lines_and_in_the_box(form):
+    """Also where an edge is one point: the w of a sphere stands on its equator. None is on the other, nor outside the axes."""
+    figure = view(form)
+    places = {text.removeprefix("<b>").removesuffix("</b>"): np.array(at) for text, at in _words(figure).items()}
+    assert set(places) == {"u", "w"}
+    t = np.linspace(0, 1, 201)
+    points = form(t[:, None], t)
+    size = np.ptp(points.reshape(-1, 3), axis=0).max()
+    for at in places.values():
+        assert 0.01 * size < np.linalg.norm(points - at, axis=-1).min() < 0.06 * size
+    assert np.linalg.norm(places["u"] - places["w"]) > 0.1 * size
+    for letter, axis in zip("xyz", range(3), strict=True):
+        low, high = figure.layout.scene[f"{letter}axis"].range
+        assert all(low <= at[axis] <= high for at in places.values())
+    if isinstance(form, dx.Sphere):
+        assert abs(places["w"][2]) < 0.1 * size
+
+
+@pytest.mark.parametrize(
+    ("form", "closed"),
+    [
+        (dx.BSplineCurve(np.eye(4)[:, :3], 3, "periodic"), 1), (dx.BSplineCurve(np.eye(4)[:, :3], 3), 0),
+        (dx.BSplinePatch(np.random.default_rng(1).random((5, 4, 3)), 3, 3, "periodic", "open"), 4),
+        (dx.BSplinePatch(np.random.default_rng(1).random((5, 4, 3)), 3, 3, "open", "periodic"), 5),
+    ],
+)  # fmt: skip
+def test_a_net_of_periodic_knots_is_closed(form, closed):
+    """Each of its lines that runs round comes back to its first point."""
+    net = next(t for t in view(form, net=True).data if t.name == "control net")
+    lines = np.stack([net.x, net.y, net.z], axis=-1)
+    breaks = np.flatnonzero(np.isnan(lines[:, 0]))
+    parts = [part[~np.isnan(part[:, 0])] for part in np.split(lines, breaks)]
+    assert sum(len(part) > 1 and np.array_equal(part[0], part[-1]) for part in parts) == closed
