@@ -23,7 +23,7 @@ from typing import Any
 from autograder.course import Course
 from autograder.errors import CourseError, SandboxError, SubmissionError
 from autograder.exercise import Exercise
-from autograder.fleet import publish
+from autograder.fleet import capacity, publish
 from autograder.fleet.journal import Entry, Journal, only_grader
 from autograder.fleet.one import Outcome, Plan, grade_one
 from autograder.fleet.result import GradeReport, StudentReport
@@ -157,6 +157,7 @@ class _Run:
         if todo:
             self.book.add_course(self.course.id)
             with self._plan() as plan:
+                plan, workers = _fitted(plan, min(workers, len(todo)))
                 self._work(plan, [_Task(student, folder) for student, folder in todo.items()], workers)
 
     def _work(self, plan: Plan, todo: list[_Task], workers: int) -> None:
@@ -165,7 +166,7 @@ class _Run:
             return self._one(plan, task)
 
         hurried: list[_Task] = []
-        with Crew(work, min(workers, len(todo)), plan.descriptors) as crew:
+        with Crew(work, workers, plan.descriptors) as crew:
             try:
                 for done in crew.each(todo, BATCH_SECONDS):
                     if done is not None:
@@ -335,6 +336,17 @@ class _Run:
                 found = self.course.exercise(cell.exercise) if cell.exercise else None
                 if found is not None:
                     yield found
+
+
+def _fitted(plan: Plan, workers: int) -> tuple[Plan, int]:
+    """The same with limits and workers that fit this machine's memory together."""
+    session = plan.open_session
+    processes = 2 if any(script.apart for script in plan.scripts.values()) else 1
+    fit = capacity.fit(workers, session.bounds.memory, capacity.available(), processes=processes)
+    if fit.note:
+        log.warning("%s", fit.note)
+    bounds = dataclasses.replace(session.bounds, memory=fit.memory)
+    return dataclasses.replace(plan, open_session=dataclasses.replace(session, bounds=bounds)), fit.workers
 
 
 def _load_drawing() -> None:

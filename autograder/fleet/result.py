@@ -13,7 +13,7 @@ Kind = Literal["exercise", "test", "written", "task"]
 Status = Literal["graded", "unchanged", "broken", "empty", "failed"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class CellReport:
     """One graded cell of one student. ``points`` None: a person decides. ``verdict`` without its sampled surfaces."""
 
@@ -39,7 +39,7 @@ class CellReport:
         )  # fmt: skip
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class StudentReport:
     """One submission.
 
