@@ -17,7 +17,7 @@ from typing import Any
 
 import sqlalchemy as sa
 from sqlalchemy.dialects import postgresql, sqlite
-from sqlalchemy.engine import Connection, Engine, make_url
+from sqlalchemy.engine import URL, Connection, Engine, make_url
 
 from autograder.errors import CourseError
 from autograder.gradebook.reading import notebook_row
@@ -41,19 +41,24 @@ DEFAULT_COURSE = "default_course"
 
 
 class Gradebook:
-    """A connection to a gradebook that nbgrader made.
+    """A connection to a gradebook that nbgrader made, in SQLite or PostgreSQL.
+
+    Parameters
+    ----------
+    url : str
+        As SQLAlchemy writes it: ``sqlite:///gradebook.db``, ``postgresql+psycopg://user@host/database``.
 
     Raises
     ------
     CourseError
-        If there is no such database, or it is not nbgrader's.
+        If there is no such database, it is not nbgrader's, or its kind is not offered.
     """
 
     def __init__(self, url: str) -> None:
-        parsed = make_url(url)
+        parsed = _parsed(url)
         if parsed.get_backend_name() == "sqlite" and parsed.database and not Path(parsed.database).is_file():
             raise CourseError(f"there is no gradebook {parsed.database}; release an assignment first: directrix release A1")
-        self.engine = _engine(url)
+        self.engine = _engine(parsed)
 
     def close(self) -> None:
         """Close all connections."""
@@ -353,10 +358,26 @@ def _chunked(connection: Connection, query: Any, column: Any, keys: Sequence[str
         yield from connection.execute(query.where(column.in_(keys[start : start + CHUNK])))
 
 
-def _engine(url: str) -> Engine:
-    """An engine whose SQLite transactions take the write lock at once and wait for it, so that two writers never deadlock."""
-    if make_url(url).get_backend_name() != "sqlite":
-        return sa.create_engine(url)
+def _parsed(url: str) -> URL:
+    try:
+        parsed = make_url(url)
+    except sa.exc.ArgumentError:  # not repeated: a password may stand in it
+        raise CourseError(
+            "c.CourseDirectory.db_url is no database URL; write sqlite:///PATH or postgresql+psycopg://..."
+        ) from None
+    if parsed.get_backend_name() not in ("sqlite", "postgresql"):
+        raise CourseError(f"a gradebook lies in SQLite or PostgreSQL; c.CourseDirectory.db_url names {parsed.drivername}")
+    return parsed
+
+
+def _engine(url: URL) -> Engine:
+    """An engine whose transactions wait a minute for those of others, and no longer.
+
+    SQLite's take the write lock at once, so that two writers never deadlock. Those of PostgreSQL lock rows as they come to
+    them; who writes single rows, as formgrader does, is never part of a deadlock.
+    """
+    if url.get_backend_name() == "postgresql":
+        return _postgresql(url)
     engine = sa.create_engine(url, connect_args={"timeout": BUSY_SECONDS})
 
     @sa.event.listens_for(engine, "connect")
@@ -366,5 +387,21 @@ def _engine(url: str) -> Engine:
     @sa.event.listens_for(engine, "begin")
     def _(connection: Connection) -> None:
         connection.exec_driver_sql("BEGIN IMMEDIATE")
+
+    return engine
+
+
+def _postgresql(url: URL) -> Engine:
+    try:
+        engine = sa.create_engine(url, pool_pre_ping=True)  # a server that was started again costs a connection, not the run
+    except ModuleNotFoundError as error:
+        raise CourseError(
+            f"a gradebook in PostgreSQL needs {error.name}: pip install 'directrix[postgres]', and write the URL in "
+            "c.CourseDirectory.db_url as postgresql+psycopg://..."
+        ) from None
+
+    @sa.event.listens_for(engine, "begin")
+    def _(connection: Connection) -> None:
+        connection.exec_driver_sql(f"SET LOCAL lock_timeout = '{BUSY_SECONDS}s'")
 
     return engine

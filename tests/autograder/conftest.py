@@ -3,6 +3,7 @@
 Both are made once by nbgrader itself (``generate_assignment``) and copied for each test that changes something.
 """
 
+import datetime
 import json
 import os
 import shutil
@@ -11,6 +12,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from tests.autograder.postgres_server import Server, programs
 
 ORDINARY_CONFIG = """
 c = get_config()
@@ -71,8 +74,8 @@ ORDINARY = {
 }
 
 
-def generated(folder, config, sources, name):
-    """A course with one assignment released by nbgrader itself."""
+def generated(folder, config, sources, name, database=None):
+    """A course with one assignment released by nbgrader itself, its gradebook in that database (default: SQLite)."""
     from nbgrader.apps import NbGraderAPI
     from traitlets.config import Config
 
@@ -85,6 +88,8 @@ def generated(folder, config, sources, name):
     loaded = Config()
     loaded.CourseDirectory.root = str(folder)
     loaded.CourseDirectory.course_id = "ordinary"
+    if database is not None:
+        loaded.CourseDirectory.db_url = database
     result = NbGraderAPI(config=loaded).generate_assignment(name, create=True)
     assert result["success"], result
     return folder
@@ -182,6 +187,62 @@ class Classroom:
     def copy(self, folder):
         shutil.copytree(self.folder, folder, symlinks=True)
         return Classroom(folder, self.assignment)
+
+
+class PostgresClassroom(Classroom):
+    """The same with its gradebook in PostgreSQL."""
+
+    def __init__(self, folder, assignment, server, database):
+        super().__init__(folder, assignment)
+        self.server, self.database = server, database
+
+    @classmethod
+    def of(cls, template, server, folder):
+        """A course of its own: copies of a course folder and of its database."""
+        database = server.create(template.database)
+        copy = cls(shutil.copytree(template.folder, folder, symlinks=True), template.assignment, server, database)
+        copy.configure(f'c.CourseDirectory.db_url = "{server.url(database)}"\n')
+        return copy
+
+    def sql(self, statement, *values):
+        rows = self.server.sql(statement, self.database)
+        return [tuple(_as_sqlite(value) for value in row) for row in rows]
+
+    def copy(self, folder):
+        return PostgresClassroom.of(self, self.server, folder)
+
+
+def _as_sqlite(value):
+    """Truth and time as SQLite keeps them, so that gradebooks can be compared."""
+    if isinstance(value, bool):
+        return int(value)
+    return f"{value:%Y-%m-%d %H:%M:%S.%f}" if isinstance(value, datetime.datetime) else value
+
+
+@pytest.fixture(scope="session")
+def postgres():
+    """A running PostgreSQL. Without its programs such tests are skipped on a developer's machine, and fail in CI."""
+    if programs() is None:
+        pytest.skip("no PostgreSQL found: install the package `postgresql` to run these tests")
+    server = Server()
+    yield server
+    server.close()
+
+
+@pytest.fixture(scope="session")
+def postgres_template(postgres, tmp_path_factory):
+    """The ordinary course, released by nbgrader into PostgreSQL."""
+    folder, database = tmp_path_factory.mktemp("ordinary-postgres"), postgres.create()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+        generated(folder, ORDINARY_CONFIG, ORDINARY, "ps1", postgres.url(database))
+    return PostgresClassroom(folder, "ps1", postgres, database)
+
+
+@pytest.fixture
+def in_postgres(postgres_template, tmp_path):
+    """The ordinary course with its gradebook in PostgreSQL."""
+    return postgres_template.copy(tmp_path / "in_postgres")
 
 
 @pytest.fixture(scope="session")
