@@ -237,7 +237,7 @@ TEXT: dict[str, str] = {
     "look.edge": "You start right: look at what happens as {name} grows from {start} to {end}.",
     "look.contrast": "Follow {names} through your function: which step holds in the first case only?",
     "look.only_sides": "Look at parameters of exactly {values}: which branch, or which span, do they belong to?",
-    "look.spans": "Look at what a parameter in that span adds up: which points does it need, and does the sum or the loop reach them?",
+    "look.spans": "Look at what is added up in that span: which points does it need, and does the sum or the loop reach them?",
     "look.interval": "Look for an if, a comparison or a rounding that changes over at about {name} = {value}.",
     "look.worst": "Take that one point and work it out by hand, step by step: where do the two part?",
     "look.part": "Look at how far the parameters take you: which point is reached at {place}?",
