@@ -11,22 +11,25 @@ from numpy.typing import NDArray
 from directrix import checks
 from directrix.checks import Array
 from directrix.errors import GeometryError
+from directrix.export.parts import continuous
 from directrix.solids.solid import Solid
+from directrix.surfaces.spline import BSplinePatch, NurbsPatch
 from directrix.surfaces.surface import Surface
 
 WELD = 1e-9  # vertices nearer than this, as a fraction of the size, are one
 
 MISSING = "writing {suffix} needs trimesh: pip install 'directrix[mesh]'"
 
+SPLINES = BSplinePatch, NurbsPatch
 FINEST = 4096  # cells in each parameter
 
 
 def mesh(form: Surface | Solid, resolution: int = 64) -> tuple[Array, NDArray[np.int64]]:
     """Triangles of a surface, or of the six faces of a solid.
 
-    Parameters equally spaced, knots among them, each cell cut along a diagonal. Vertices that coincide (a closed seam, a pole,
-    the edges of a solid) become one and collapsed triangles are left out, so that a closed surface gives a closed mesh.
-    Triangles run anticlockwise about S_u x S_w; those of a solid about the outward normal.
+    Parameters equally spaced, knots among them, each cell cut along a diagonal; where a B-spline is torn, a gap. Vertices that
+    coincide (a closed seam, a pole, the edges of a solid) become one and collapsed triangles are left out, so that a closed
+    surface gives a closed mesh. Triangles run anticlockwise about S_u x S_w; those of a solid about the outward normal.
 
     Parameters
     ----------
@@ -54,7 +57,7 @@ def mesh(form: Surface | Solid, resolution: int = 64) -> tuple[Array, NDArray[np
     if isinstance(form, Solid):
         parts = [_grid(face, resolution) for face in form.faces()]
     elif isinstance(form, Surface):
-        parts = [_grid(form, resolution)]
+        parts = [_grid(one, resolution) for one in (continuous(form) if isinstance(form, SPLINES) else [form])]
     else:
         raise GeometryError(f"a mesh is made of a surface or a solid; got {type(form).__name__}.")
     offsets = np.cumsum([0, *(len(vertices) for vertices, _ in parts)])

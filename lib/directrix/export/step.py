@@ -8,16 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from directrix.checks import Array
-from directrix.conversion import elevate, to_nurbs
+from directrix.conversion import to_nurbs
 from directrix.errors import GeometryError
-from directrix.knots import KnotVector
+from directrix.export.parts import continuous
 from directrix.solids.solid import Solid
 from directrix.surfaces.spline import NurbsPatch
 from directrix.surfaces.surface import Surface
@@ -30,7 +29,7 @@ def write_step(path: Path, forms: tuple[Any, ...]) -> None:
     surfaces = [face for form in forms for face in (form.faces() if isinstance(form, Solid) else [form])]
     if not all(isinstance(surface, Surface) for surface in surfaces):
         raise GeometryError("STEP holds surfaces and solids; convert curves into surfaces first, or write them to JSON.")
-    patches = [part for surface in surfaces for part in _continuous(to_nurbs(surface))]
+    patches = [part for surface in surfaces for part in continuous(to_nurbs(surface))]
     with _opencascade() as occ:
         builder, compound = occ.BRep.BRep_Builder(), occ.TopoDS.TopoDS_Compound()
         builder.MakeCompound(compound)
@@ -88,22 +87,6 @@ def _opencascade() -> Iterator[Any]:
     finally:
         for printer, level in zip(printers, levels, strict=True):
             printer.SetTraceLevel(level)
-
-
-def _continuous(patch: NurbsPatch) -> list[NurbsPatch]:
-    """The parts between the knots at which a patch is torn, with degrees of at least 1."""
-    if min(patch.degrees) == 0:
-        patch = elevate(patch, u=int(patch.k == 1), w=int(patch.l == 1))
-    cuts_u, cuts_w = (_tears(knots) for knots in (patch.knot_vector_u, patch.knot_vector_w))
-    if len(cuts_u) == len(cuts_w) == 2:
-        return [patch]
-    return [patch.patch(a, b, c, d) for a, b in pairwise(cuts_u) for c, d in pairwise(cuts_w)]
-
-
-def _tears(knots: KnotVector) -> list[float]:
-    distinct, times = np.unique(knots.values, return_counts=True)
-    inner = distinct[(times >= knots.order) & (distinct > knots.start) & (distinct < knots.end)]
-    return [0.0, *(float(u) for u in knots.relax(inner)), 1.0]
 
 
 def _geom(occ: Any, patch: NurbsPatch) -> Any:

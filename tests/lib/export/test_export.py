@@ -123,6 +123,16 @@ def test_mesh_volume_and_orientation():
     assert volume(dx.Sphere(1)) == pytest.approx(-4 / 3 * np.pi, rel=4e-3)
 
 
+def test_a_tear_stays_open():
+    """Two steps, at heights 0 and 5: no triangle joins them."""
+    net = np.array([[(x, y, z) for y in (0, 1)] for x, z in ((0, 0), (1, 0), (1, 5), (2, 5))], dtype=float)
+    torn = dx.BSplinePatch(net, 2, 2, [0, 0, 1, 1, 2, 2])
+    vertices, triangles = export.mesh(torn, 5)
+    assert set(np.ptp(vertices[triangles][..., 2], axis=1)) == {0.0}
+    a, b, c = (vertices[corner] for corner in triangles.T)
+    assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(2)
+
+
 def test_knots_are_among_the_vertices():
     """A crease at a knot is kept, whatever the resolution."""
     net = np.array([[(x, y, z) for y in (0, 1)] for x, z in ((0, 0), (1, 1), (3, 0))], dtype=float)
