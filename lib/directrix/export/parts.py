@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -11,7 +11,8 @@ from directrix.conversion import elevate
 from directrix.knots import KnotVector
 from directrix.surfaces.spline import BSplinePatch, NurbsPatch
 
-Spline = TypeVar("Spline", BSplinePatch, NurbsPatch)
+
+Spline = TypeVar("Spline", bound=BSplinePatch | NurbsPatch)
 
 
 def continuous(patch: Spline) -> list[Spline]:
@@ -21,7 +22,8 @@ def continuous(patch: Spline) -> list[Spline]:
     cuts_u, cuts_w = tears(patch.knot_vector_u), tears(patch.knot_vector_w)
     if len(cuts_u) == len(cuts_w) == 2:
         return [patch]
-    return [patch.patch(a, b, c, d) for a, b in pairwise(cuts_u) for c, d in pairwise(cuts_w)]
+    parts: list[Any] = [patch.patch(a, b, c, d) for a, b in pairwise(cuts_u) for c, d in pairwise(cuts_w)]
+    return parts
 
 
 def tears(knots: KnotVector) -> list[float]:
