@@ -11,7 +11,6 @@ from directrix.conversion import elevate
 from directrix.knots import KnotVector
 from directrix.surfaces.spline import BSplinePatch, NurbsPatch
 
-
 Spline = TypeVar("Spline", bound=BSplinePatch | NurbsPatch)
 
 
