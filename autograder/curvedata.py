@@ -99,8 +99,7 @@ class SurfaceData:
     def __call__(self, u: ArrayLike, w: ArrayLike) -> NDArray[np.float64]:
         """Points at the parameters u and w, their common shape + (3,)."""
         n, m, _ = self.coefficients.shape
-        across = chebyshev.chebvander(_within("u", u), n - 1)
-        along = chebyshev.chebvander(_within("w", w), m - 1)
+        across, along = _polynomials("u", u, n), _polynomials("w", w, m)
         rows = np.tensordot(across, self.coefficients, 1)  # an open mesh stays open here, which makes it cheap
         found: NDArray[np.float64] = np.einsum("...md,...m->...d", rows, along)
         return found
@@ -116,14 +115,14 @@ class SurfaceData:
             return f"<surface from {self(0.0, 0.0)} to {self(1.0, 1.0)}>"
 
 
-def _within(name: str, t: ArrayLike) -> NDArray[np.float64]:
-    """Parameters in [0, 1], carried to [-1, 1]."""
+def _polynomials(name: str, t: ArrayLike, count: int) -> NDArray[np.float64]:
+    """The first Chebyshev polynomials at parameters in [0, 1], shape ``t.shape + (count,)``."""
     given: NDArray[np.float64] = np.asarray(t, dtype=float)
     inside = (given >= -EDGE) & (given <= 1 + EDGE)
     if not inside.all():
         raise ValueError(f"surface(u, w) is defined for u and w in [0, 1]; got {name} = {given[~inside].flat[0]:.6g}")
-    carried: NDArray[np.float64] = 2 * np.clip(given, 0.0, 1.0) - 1
-    return carried
+    values = np.asarray(chebyshev.chebvander(2 * np.clip(given, 0.0, 1.0) - 1, count - 1), dtype=np.float64)
+    return values.reshape(*given.shape, count)  # NumPy makes arrays of single numbers
 
 
 def as_data(map: Callable[..., Any]) -> CurveData | SurfaceData:

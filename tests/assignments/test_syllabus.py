@@ -52,6 +52,23 @@ LISTED = {
     "hyperpatch_faces": "mid_slices all_slices_u transposed near_far",
     "flatness": "z_range vertical rms three_points not_centred",
     "cylindricity": "axis_not_unit distance_to_point diameter half_zone squared",
+    # The stretch tasks: the syllabus describes their mistakes in words, the names are the course's own.
+    "quadric_value": "mixed_halves_forgotten factor_2 E_F_exchanged K_forgotten",
+    "quadric_class": "signs_of_ABC determinant_only no_tolerance",
+    "screw_sweep": "negative_sense pitch_per_radian no_advance",
+    "corners_agree": "head_to_tail absolute_tolerance two_corners",
+    "bezier_split": "second_reversed always_in_the_middle points_not_controls",
+    "elevate_u": "degree_for_points midpoints elevated_in_w",
+    "uniform_bicubic": "sixths_forgotten one_sixth_forgotten bezier through_inner_points",
+    "points16_to_bezier": "points_as_controls along_u_only along_w_only matrix_transposed right_not_transposed",
+    "cubic_coons": "bilinear_correction",
+    "coons_bezier_net": "zero_twist one_too_many",
+    "nurbs_revolve": "weights_added weights_replaced plain_knots",
+    "outward_normals": "as_they_come all_inward near_faces_turned",
+    "revolved_line_kind": "skew_is_cone",
+    "sphericity": "centroid_as_centre half_zone rms",
+    "fmill_tangents": "mean_length central_difference",
+    "same_surface": "area_not_compared one_sided",
 }
 ASSIGNMENTS = {
     "A1": ["cylinder", "frustum", "sphere", "torus", "torus_class"],
@@ -70,6 +87,24 @@ ASSIGNMENTS = {
     "A6": ["bernstein", "bezier_patch", "iso_curve_net", "bezier_to_hermite", "hermite_to_bezier"],
     "A7": ["open_knots", "bspline_basis", "bspline_patch", "nurbs_patch", "nurbs_quarter_cylinder"],
     "A8": ["coons", "ferguson", "coons_twists", "hyperpatch", "hyperpatch_faces", "flatness", "cylindricity"],
+    "A9": [
+        "quadric_value",
+        "quadric_class",
+        "revolved_line_kind",
+        "screw_sweep",
+        "nurbs_revolve",
+        "bezier_split",
+        "elevate_u",
+        "uniform_bicubic",
+        "points16_to_bezier",
+        "corners_agree",
+        "cubic_coons",
+        "coons_bezier_net",
+        "fmill_tangents",
+        "outward_normals",
+        "sphericity",
+        "same_surface",
+    ],
 }
 
 

@@ -1,9 +1,9 @@
-"""Curves as data: equal to the callable to rounding, closed outside [0, 1], honest where they cannot be written down."""
+"""Curves and surfaces as data: equal to the callable to rounding, closed outside [0, 1], honest where they cannot be written."""
 
 import numpy as np
 import pytest
 
-from autograder.curvedata import CurveData, as_curve
+from autograder.curvedata import CurveData, SurfaceData, as_curve, as_data, as_surface
 
 CURVES = {
     "line": lambda t: np.stack([1 + 2 * t, -t, 0 * t], -1),
@@ -75,3 +75,83 @@ def test_coefficients_that_do_not_fit_the_breaks_are_refused():
     """p pieces have p + 1 breaks."""
     with pytest.raises(ValueError, match=r"p \+ 1 breaks"):
         CurveData([0, 0.5, 1], np.zeros((1, 4, 3)))
+
+
+SURFACES = {
+    "saddle": lambda u, w: np.stack(np.broadcast_arrays(1 + 2 * u, w - 3, u * w**3), -1),
+    "torus": lambda u, w: np.stack(
+        np.broadcast_arrays(
+            (3 + np.cos(2 * np.pi * u)) * np.cos(2 * np.pi * w),
+            (3 + np.cos(2 * np.pi * u)) * np.sin(2 * np.pi * w),
+            np.sin(2 * np.pi * u),
+        ),
+        -1,
+    ),
+    "two turns": lambda u, w: np.stack(np.broadcast_arrays(np.cos(4 * np.pi * u), np.sin(4 * np.pi * u), w), -1),
+    "constant": lambda u, w: np.zeros((*np.broadcast_shapes(np.shape(u), np.shape(w)), 3)) + [1.0, 2.0, 3.0],
+}
+
+
+@pytest.mark.parametrize("name", SURFACES)
+def test_surfaces_equal_the_callable_to_rounding_on_scattered_points_and_on_open_meshes(name):
+    """2e-14 of the largest coordinate, as for curves: about a thousand terms are summed."""
+    u, w = np.random.default_rng(5).uniform(size=(2, 300))
+    data, wanted = as_surface(SURFACES[name]), SURFACES[name](u, w)
+    assert np.abs(data(u, w) - wanted).max() <= 2e-14 * np.abs(wanted).max()
+    mesh = np.linspace(0, 1, 21)[:, None], np.linspace(0, 1, 17)[None, :]
+    assert np.abs(data(*mesh) - SURFACES[name](*mesh)).max() <= 2e-14 * np.abs(wanted).max()
+
+
+@pytest.mark.parametrize(
+    ("u", "w", "shape"),
+    [(0.3, 1.0, ()), (np.zeros(4), 0.5, (4,)), (0.5, np.empty(0), (0,)), (np.zeros((3, 1)), np.ones((1, 2)), (3, 2))],
+)
+def test_a_surfaces_points_have_the_shape_of_u_and_w_together(u, w, shape):
+    """Single numbers, mixed, empty, open meshes."""
+    for surface in SURFACES.values():
+        assert as_surface(surface)(u, w).shape == (*shape, 3)
+
+
+def test_a_surface_keeps_no_more_than_it_needs():
+    """Bilinear times cubic: what is there is the polynomial, and not sixty-five rounding errors."""
+    assert as_surface(SURFACES["saddle"]).coefficients.shape == (2, 4, 3)
+
+
+@pytest.mark.parametrize(("u", "w", "name"), [(-0.01, 0.5, "u"), (0.5, 1.5, "w"), (np.nan, 0.5, "u")])
+def test_outside_the_unit_square_is_an_error_that_names_the_parameter(u, w, name):
+    with pytest.raises(ValueError, match=rf"defined for u and w in \[0, 1\]; got {name} ="):
+        as_surface(SURFACES["torus"])(u, [0.5, w])
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (lambda u, w: np.stack(np.broadcast_arrays(u, w, np.abs(u - w)), -1), "not smooth enough"),
+        (lambda u, w: np.stack(np.broadcast_arrays(u, w, np.sqrt(u + 0.001)), -1), "not smooth enough"),
+        (lambda u, w: u + w, "a surface must map u"),
+        (lambda u, w: np.full((65, 65, 3), np.nan), "a surface must map u"),
+    ],
+)
+def test_what_is_no_smooth_surface_is_refused(wrong, said):
+    """A crease, a root too near the edge, no points, no numbers."""
+    with pytest.raises(ValueError, match=said):
+        as_surface(wrong)
+
+
+def test_a_surface_is_kept_as_it_is_and_cannot_be_written():
+    torus = as_surface(SURFACES["torus"])
+    assert as_surface(torus) is torus
+    assert as_data(torus) is torus
+    assert SurfaceData(torus.coefficients) == torus
+    assert hash(SurfaceData(torus.coefficients)) == hash(torus)
+    with pytest.raises(ValueError, match="read-only"):
+        torus.coefficients[0, 0, 0] = 5
+    with pytest.raises(ValueError, match=r"coefficients of shape \(n, m, dimension\)"):
+        SurfaceData(np.zeros(3))
+
+
+def test_the_number_of_arguments_tells_a_surface_from_a_curve():
+    """What has a default need not be given, and does not count."""
+    assert isinstance(as_data(SURFACES["saddle"]), SurfaceData)
+    assert isinstance(as_data(CURVES["arc"]), CurveData)
+    assert isinstance(as_data(lambda t, r=2.0: np.stack([r * t, t, t], -1)), CurveData)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from autograder.curvedata import CurveData
+from autograder.curvedata import CurveData, SurfaceData
 from autograder.errors import CallFailed, SandboxError
 
 CURVE = CurveData([0, 1], np.array([[[1.0, 0, 0], [0, 2, 0]]]))
@@ -68,6 +68,16 @@ def test_arguments_arrive_in_order_arrays_read_only_and_curves_callable(session)
     writable, points, name, second, kind = session.call("f", [u, CURVE, "x", (1, 2)])
     assert (writable, name, second, kind) == (False, "x", 2, "CurveData")
     assert np.array_equal(points, CURVE(u))
+
+
+def test_a_surface_can_be_asked_where_it_is_and_tells_nothing_else(session):
+    """Evaluated in the child from numbers alone, on single numbers and on an open mesh."""
+    surface = SurfaceData(np.arange(18.0).reshape(2, 3, 3))
+    define(session, "import numpy as np\nt = np.linspace(0, 1, 5)\ndef f(s): return s(0.25, 0.5), s(t[:, None], t[None, :2])")
+    one, mesh = session.call("f", [surface])
+    t = np.linspace(0, 1, 5)
+    assert np.array_equal(one, surface(0.25, 0.5))
+    assert np.array_equal(mesh, surface(t[:, None], t[None, :2]))
 
 
 def test_an_argument_changed_in_place_is_an_error_at_its_line(session):

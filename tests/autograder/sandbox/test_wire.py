@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from autograder.curvedata import CurveData
+from autograder.curvedata import CurveData, SurfaceData
 from autograder.sandbox import wire
 from autograder.sandbox.wire import WireError, decode, encode
 
@@ -50,6 +50,20 @@ def test_scalars_arrays_keep_their_zero_dimensions():
 def test_a_curve_comes_back_with_its_numbers():
     curve = CurveData([0, 0.5, 1], np.arange(12.0).reshape(2, 2, 3))
     assert decode(encode((curve, 1))) == (curve, 1)
+
+
+def test_a_surface_comes_back_with_its_numbers():
+    surface = SurfaceData(np.arange(18.0).reshape(2, 3, 3))
+    assert decode(encode((surface, 1))) == (surface, 1)
+
+
+@pytest.mark.parametrize(
+    "body", [b"p" + encode(np.arange(3.0)), b"p" + encode(np.ones((2, 2, 3), dtype="i8")), b"p" + encode(1.0)]
+)
+def test_what_is_no_surface_is_a_wire_error(body):
+    """Too few dimensions, whole numbers, no array."""
+    with pytest.raises(WireError):
+        decode(body)
 
 
 @pytest.mark.parametrize("dtype", ["i1", "u2", ">f8", "f2", "longdouble", "uint8"])
@@ -148,7 +162,15 @@ def test_any_bytes_are_a_value_or_a_wire_error(body):
 @given(st.data())
 def test_a_damaged_frame_never_escapes(data):
     """One byte of a true value changed: still a value or a WireError, never another exception."""
-    body = bytearray(encode((1, "text", np.arange(6.0).reshape(2, 3), CurveData([0, 1], np.ones((1, 2, 3))), (None, True))))
+    values = (
+        1,
+        "text",
+        np.arange(6.0).reshape(2, 3),
+        CurveData([0, 1], np.ones((1, 2, 3))),
+        SurfaceData(np.ones((2, 2, 3))),
+        (None, True),
+    )
+    body = bytearray(encode(values))
     body[data.draw(st.integers(0, len(body) - 1))] = data.draw(st.integers(0, 255))
     with contextlib.suppress(WireError):
         decode(bytes(body))
