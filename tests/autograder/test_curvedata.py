@@ -1,4 +1,4 @@
-"""Curves and surfaces as data: equal to the callable to rounding, closed outside [0, 1], honest where they cannot be written."""
+"""Curves and surfaces as data: equal to the callable to rounding, closed outside [0, 1], honest where they cannot be fitted."""
 
 import numpy as np
 import pytest
