@@ -3,6 +3,7 @@
     python tests/evidence/campaign.py mistakes --seeds 50        every reference, stub and listed mistake
     python tests/evidence/campaign.py styles --seeds 200         right answers in many styles are never refused
     python tests/evidence/campaign.py mutants --count 3000       small changes of right answers are never passed
+    python tests/evidence/campaign.py page                       only makes docs/evidence.md anew from the kept totals
     ... --write          puts the totals into docs/evidence.md
     ... --only cylinder  one exercise (also several)
     ... --jobs 2         processes
@@ -37,6 +38,9 @@ from autograder.catalogue import shipped
 
 def main(arguments: Sequence[str] | None = None) -> int:
     options = _options(arguments)
+    if options.command == "page":
+        page.rewrite()
+        return 0
     ids = options.only or [exercise.id for exercise in shipped()]
     for id in ids:
         shipped().find(id)
@@ -117,7 +121,7 @@ def _said(options: argparse.Namespace) -> str:
 
 def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", choices=list(COMMANDS))
+    parser.add_argument("command", choices=[*COMMANDS, "page"])
     parser.add_argument("--seeds", type=int, default=None, help="random seeds (50 for mistakes, 200 for styles)")
     parser.add_argument("--count", type=int, default=3000, help="mutants")
     parser.add_argument("--seed", type=int, default=1, help="of the choice of mutants")

@@ -41,8 +41,8 @@ TELLS = {
     r"|wrong\.(no_error|also_no_error|other_error|hidden_error|built)",
     "geometry": r"wrong\.(relabelled|other_start|close|same_set|covered|collapsed|more|part|moved)",
     "rule": r"fact\.(?!coordinates?_wrong)|value\.(?!entries|shape)",
-    "place": r"right\.(one_coordinate|coordinates|edge|end|face|corner|sets|blind)"
-    r"|fact\.|wrong\.(mask|yes_no|word_case|not_|tuple|item|different_)",
+    "place": r"right\.(one_coordinate|coordinates|edge|end|face|corner|sets|blind|contrast|only_side|up_to|from|outside)"
+    r"|spans\.|fact\.|wrong\.(mask|yes_no|word_case|not_|tuple|item|different_)",
 }
 
 

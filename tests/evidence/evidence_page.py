@@ -40,7 +40,8 @@ lists are kept in `tests/evidence/syllabus_mistakes.json`; the exercises hold al
 
 Right answers as learners write them: loops over single points, whole arrays, recursion, matrices, complex numbers, another
 formula for the same thing. Two count as different only if their syntax trees differ after all names, imports and error
-messages are taken out. Each was judged on the released data and, as in grading, on hidden data of every seed.
+messages are taken out. Each was judged under every seed, every fifth time as in grading: on hidden data with samples of their
+own, and on the released data beside them.
 """,
     "mutants": """\
 ## No wrong answer is passed
@@ -161,8 +162,13 @@ def write(command: str, rows: Sequence[Mapping[str, Any]], said: str) -> None:
     """Keep the totals of a campaign and make the page anew."""
     kept = json.loads(RESULTS.read_text("utf-8")) if RESULTS.exists() else {}
     kept[command] = {"command": said, "date": date.today().isoformat(), "version": _version(), "totals": totals(command, rows)}
-    RESULTS.write_text(json.dumps(kept, indent=2, sort_keys=True) + "\n", "utf-8")
+    RESULTS.write_text(json.dumps(kept, indent=2) + "\n", "utf-8")
     PAGE.write_text(rendered(kept), "utf-8")
+
+
+def rewrite() -> None:
+    """Make the page anew from the kept totals."""
+    PAGE.write_text(rendered(json.loads(RESULTS.read_text("utf-8"))), "utf-8")
 
 
 def totals(command: str, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
