@@ -110,13 +110,13 @@ def _withhold(modules: Sequence[str]) -> None:
 
 
 def _capture(scratch: str, size: int) -> None:
-    """Let what C code prints go to an unlinked file, which the shell reads after each cell."""
-    path = f"{scratch}/printed"
-    file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o600)
-    os.unlink(path)
-    os.dup2(file, 1)
-    os.dup2(file, 2)
-    os.close(file)
+    """Let what C code prints go to unlinked files, one for each stream, which the shell reads after each cell."""
+    for descriptor in (1, 2):
+        path = f"{scratch}/printed"
+        file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND, 0o600)
+        os.unlink(path)
+        os.dup2(file, descriptor)
+        os.close(file)
 
 
 def _limit(limits: dict[str, int | float]) -> None:

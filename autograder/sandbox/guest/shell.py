@@ -5,8 +5,10 @@ Text, displays, results and errors are kept in the order in which they came (a k
 
 from __future__ import annotations
 
+import asyncio
 import base64
 import builtins
+import getpass
 import io
 import json
 import math
@@ -136,7 +138,7 @@ class Recorder:
 class Printed(io.TextIOBase):
     """sys.stdout or sys.stderr of the notebook."""
 
-    encoding = "utf-8"
+    encoding = "UTF-8"
     errors = "replace"
 
     def __init__(self, name: str, recorder: Recorder) -> None:
@@ -202,6 +204,7 @@ class Shell(InteractiveShell):
     displayhook_class = Type(Result)
     display_pub_class = Type(Publisher)
     kernel: ClassVar[None] = None
+    loop: asyncio.AbstractEventLoop | None = None  # made by the first cell: a loop of the zygote would be everybody's
 
     def __init__(self, **options: Any) -> None:
         self.recorder = Recorder()
@@ -220,7 +223,7 @@ class Shell(InteractiveShell):
         shell = cls.instance(config=settings)
         sys.stdout, sys.stderr = Printed("stdout", shell.recorder), Printed("stderr", shell.recorder)
         sys.stdin = io.StringIO()
-        builtins.input = _no_input
+        builtins.input, getpass.getpass = _no_input, _no_password
         return shell
 
     def init_ipython_dir(self, ipython_dir: Any) -> None:
@@ -263,7 +266,15 @@ class Shell(InteractiveShell):
         self.recorder.begin(size, count)
         self.ran_into = None
         self.number = self.execution_count
-        result = self.run_cell(source, store_history=True)  # type: ignore[no-untyped-call]
+        if self.loop is None or self.loop.is_closed():
+            self.loop = asyncio.new_event_loop()
+            asyncio.set_event_loop(self.loop)
+        try:
+            result = self.loop.run_until_complete(self._run_in_loop(source))
+        except (Exception, SystemExit, KeyboardInterrupt):  # a task that ends the loop, not the cell
+            self.showtraceback()
+            self.printed_by_c()
+            return "error"
         self.printed_by_c()
         error = result.error_before_exec or result.error_in_exec
         if isinstance(error, TimeLimitExceeded):
@@ -271,6 +282,20 @@ class Shell(InteractiveShell):
         if isinstance(error, MemoryError):
             return "memory"
         return "error" if error is not None or self.ran_into is not None else "ok"
+
+    async def _run_in_loop(self, source: str) -> Any:
+        """As a kernel does: every cell finds the loop running, so that a task may outlive the cell that made it."""
+        try:
+            cell = self.transform_cell(source)  # type: ignore[no-untyped-call]
+            awaits = self.should_run_async(source, transformed_cell=cell)
+        except Exception:  # run_cell meets it too, and shows it
+            awaits = False
+        if not awaits:
+            return self.run_cell(source, store_history=True)  # type: ignore[no-untyped-call]
+        result = await self.run_cell_async(source, store_history=True, transformed_cell=cell)
+        self.events.trigger("post_execute")
+        self.events.trigger("post_run_cell", result)
+        return result
 
     def shown(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
         """Outputs of the last cell, and updates for displays of earlier cells, as plain tuples."""
@@ -315,18 +340,23 @@ class Shell(InteractiveShell):
             self.printed_by_c()
 
     def printed_by_c(self) -> None:
-        """Record: take what was written to file descriptors 1 and 2 past Python, and empty that file."""
-        try:
-            size = os.lseek(1, 0, os.SEEK_END)
-            text = os.pread(1, min(size, self.recorder.left + 1), 0).decode("utf-8", "replace") if size else ""
-            os.ftruncate(1, 0)
-        except OSError:  # the learner's code has closed it
-            return
-        self.recorder.stream("stdout", text)
+        """Record: take what was written to file descriptors 1 and 2 past Python, and empty those files."""
+        for descriptor, name in ((1, "stdout"), (2, "stderr")):
+            try:
+                size = os.lseek(descriptor, 0, os.SEEK_END)
+                text = os.pread(descriptor, min(size, self.recorder.left + 1), 0).decode("utf-8", "replace") if size else ""
+                os.ftruncate(descriptor, 0)
+            except OSError:  # the learner's code has closed it
+                continue
+            self.recorder.stream(name, text)
 
 
 def _no_input(prompt: object = "") -> str:
     raise StdinNotImplementedError("input() has nobody to ask while the grader runs the notebook; use a variable instead")
+
+
+def _no_password(prompt: object = "", stream: object = None) -> str:
+    raise StdinNotImplementedError("getpass() has nobody to ask while the grader runs the notebook; use a variable instead")
 
 
 def _bundle(data: dict[str, Any]) -> list[tuple[str, str]]:

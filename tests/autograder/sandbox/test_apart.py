@@ -142,7 +142,7 @@ def test_a_learners_process_that_hangs_in_c_is_ended_and_the_test_fails(pair):
 
 FORGE = """
 import os, stat
-def _sockets():
+def _sockets():  # to the grader, to the tests, then the two of the event loop
     found = []
     for number in range(3, 64):
         try:
@@ -193,7 +193,7 @@ def test_a_learner_cannot_ask_for_the_names_of_the_tests(pair):
     solution = FORGE + (
         "from autograder.sandbox import wire\n"
         "def f(x):\n"
-        "    peer = _sockets()[-1]\n"
+        "    peer = _sockets()[1]\n"
         "    os.write(peer, _frame(wire.NAME, wire.encode(('_ref',)), b'e' * 16))\n"
         "    import socket; s = socket.socket(fileno=os.dup(peer))\n"
         "    return repr(s.recv(2000))\n"
@@ -210,7 +210,7 @@ def test_a_learner_cannot_ask_for_the_names_of_the_tests(pair):
 def test_what_is_no_answer_fails_the_cell_and_nothing_else(sandbox, bytes_sent):
     learner, tests = sandbox.pair(limits=QUICK)
     with learner, tests:
-        learner.run_cell(FORGE + f"def f(x):\n    os.write(_sockets()[-1], {bytes_sent})\n    return 7")
+        learner.run_cell(FORGE + f"def f(x):\n    os.write(_sockets()[1], {bytes_sent})\n    return 7")
         result = tests.run_apart("f(1)", ["f"], learner)
         assert result.status != "ok" or shown(result) == "7"
     with sandbox.open() as session:
