@@ -1,4 +1,10 @@
-"""Two black boxes: the ladder that judges this course, climbed by the learner."""
+"""Two black boxes: the ladder that judges this course, climbed by the learner.
+
+The two surfaces are handed over as functions of u and w, not as tables of points: where to take samples, and how many, is half of
+the task. They cross into the sandbox as coefficients (``autograder.curvedata.SurfaceData``), so that a box can be asked and not
+opened. All are smooth, since such a fit has one piece. The samples here are coarse and the tolerance of "the same points" is wide;
+the data leave a wide gap between what agrees and what does not.
+"""
 
 from functools import lru_cache
 
