@@ -51,7 +51,8 @@ AUTOGRADER = {
     "authoring": ("course",),
     "demo": ("catalogue", "notebook"),
     "report": ("fleet",),
-    "cli": ("report", "doctor", "demo", "authoring", "checking"),
+    "integrity": ("report",),
+    "cli": ("integrity", "report", "doctor", "demo", "authoring", "checking"),
     "__main__": ("cli",),
 }
 # Which rooms of the library the autograder's rooms may see: cards draw; everything else judges callables and arrays.

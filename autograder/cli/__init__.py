@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from autograder.cli import author, course, grading, machine
+from autograder.cli import author, course, grading, machine, reading
 from autograder.errors import DirectrixError
 
 app = typer.Typer(
@@ -26,6 +26,7 @@ app.command()(course.lab)
 app.command()(grading.check)
 app.command()(grading.grade)
 app.command()(grading.feedback)
+app.command()(reading.similar)
 app.command()(machine.doctor)
 
 
