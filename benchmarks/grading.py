@@ -328,6 +328,7 @@ def profile(options: argparse.Namespace, scratch: Path) -> None:
     import importlib
     import pstats
 
+    from autograder.fleet.one import grade_one
     from autograder.notebook.submission import read_folder
 
     folder = scratch / "profiled"
@@ -338,7 +339,7 @@ def profile(options: argparse.Namespace, scratch: Path) -> None:
         run = module._Run(course, book, assignment, None, None)
         with run._plan() as plan:
             for student, place in course.submissions(assignment).items():
-                profiler.runcall(module.grade_one, plan, student, read_folder(place))
+                profiler.runcall(grade_one, plan, student, read_folder(place))
     pstats.Stats(profiler).sort_stats("tottime").print_stats(40)
 
 

@@ -38,12 +38,17 @@ def grade(
     assignment: Annotated[str, typer.Argument(help="Assignment in submitted/, for example A1.")],
     course: CourseOption = Path(),
     student: Annotated[list[str] | None, typer.Option(help="Only this student; may be repeated.")] = None,
-    force: Annotated[bool, typer.Option(help="Grade again what is graded already.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force/--resume", help="Grade again what is graded already; or leave it, and go on from there.")
+    ] = False,
     workers: Annotated[int, typer.Option(help="Submissions at a time; 0 means one for each processor.")] = 0,
     level: Annotated[str, typer.Option(help="Isolation level to require; empty: as the course says, else A or A-.")] = "",
+    scheduler: Annotated[str, typer.Option(help="Grade on a Dask cluster: tls://host:port; empty: on this machine.")] = "",
     as_json: AsJson = False,
 ) -> None:
-    """Grade a class: every submission in its own sandbox, marks into gradebook.db, a table at the end.
+    """Grade a class: every submission in its own sandbox, marks into the gradebook, a table at the end.
+
+    A run that was interrupted is gone on with by the same command: what is graded and unchanged is left alone.
 
     Example: directrix grade A1 --student ada
     """
@@ -52,7 +57,7 @@ def grade(
     console = console_for(as_json)
     graded = grade_with_progress(
         console, opened(course), assignment, students=student or None, force=force, workers=workers or None,
-        level=level or None,
+        level=level or None, scheduler=scheduler or None,
     )  # fmt: skip
     console.print(report.table(graded))
     if as_json:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import datetime
+import functools
 import hashlib
 import importlib
 import logging
@@ -18,20 +19,27 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from autograder.course import Course
-from autograder.errors import CourseError, SandboxError, SubmissionError
+from autograder.errors import CourseError, SubmissionError
 from autograder.exercise import Exercise
 from autograder.fleet import capacity, publish
 from autograder.fleet.journal import Entry, Journal, only_grader
-from autograder.fleet.one import Outcome, Plan, grade_one
+from autograder.fleet.one import Outcome, Plan, Rules
 from autograder.fleet.result import GradeReport, StudentReport
+from autograder.fleet.task import Landed, Task, judged
 from autograder.fleet.workers import Crew, Lost
 from autograder.gradebook import Gradebook, NotebookMarks, Record, Standing
+from autograder.notebook.secret import hidden_seed
 from autograder.notebook.session import opened
-from autograder.notebook.submission import PLAIN_ID, read_file, read_folder
+from autograder.notebook.submission import PLAIN_ID, Submission, read_file, read_folder
 from autograder.notebook.timestamps import FILE, handed_in
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+    from autograder.fleet.cluster import Cluster
 
 log = logging.getLogger(__name__)
 BATCH = 50
@@ -48,6 +56,7 @@ def grade(
     workers: int | None = None,
     force: bool = False,
     level: str | None = None,
+    scheduler: str | Client | None = None,
 ) -> GradeReport:
     """Grade the submissions of an assignment.
 
@@ -67,18 +76,27 @@ def grade(
         Grade again what is graded and unchanged.
     level : str, optional
         Isolation level to require; default the course's, else A or A-, whichever the machine gives.
+    scheduler : str or distributed.Client, optional
+        A Dask cluster to grade on instead of this machine's processes: ``tls://host:port`` (``tcp://`` on this machine), or a
+        client of one. This process reads submissions, writes the gradebook and ``autograded/``, as without.
 
     Raises
     ------
     CourseError
-        If the assignment is not in the gradebook, a student has no submission, or another grader is at work.
+        If the assignment is not in the gradebook, a student has no submission, another grader is at work, or the cluster
+        cannot be reached safely.
     IsolationError
         If this machine does not give the level.
     """
     started = time.monotonic()
     with only_grader(course.room), course.gradebook() as book:
         run = _Run(course, book, assignment, level or course.level, progress)
-        run.grade(_chosen(course, assignment, students), workers or os.cpu_count() or 1, force=force)
+        chosen = _chosen(course, assignment, students)
+        if scheduler is None:
+            run.grade(chosen, workers or os.cpu_count() or 1, force=force)
+        else:
+            with importlib.import_module("autograder.fleet.connection").connected(scheduler) as client:
+                run.grade(chosen, client, force=force)
         return run.report(time.monotonic() - started)
 
 
@@ -92,31 +110,6 @@ def _chosen(course: Course, assignment: str, students: Iterable[str] | None) -> 
         place = course.path("submitted", "*", assignment)
         raise CourseError(f"no submission of {assignment} by {', '.join(unknown)}; looked in {place}")
     return {student: there[student] for student in sorted(wanted)}
-
-
-@dataclasses.dataclass(frozen=True)
-class _Task:
-    """A submission to be graded: nothing of it but its name has been read. ``alone``: for the second time, all else done."""
-
-    student: str
-    folder: Path
-    alone: bool = False
-
-
-@dataclasses.dataclass(frozen=True)
-class _Landed:
-    """What a worker says of a submission: graded and laid out beside its place, or why not.
-
-    ``broken`` is the submission's fault, ``fault`` the grader's; ``unwritten``: graded, but its files could not be laid out.
-    """
-
-    student: str
-    outcome: Outcome | None = None
-    staged: Path | None = None
-    broken: str = ""
-    fault: str = ""
-    unwritten: str = ""
-    hurried: bool = False  # stopped by the clock with CPU time left: to be tried again alone
 
 
 class _Run:
@@ -133,12 +126,12 @@ class _Run:
         self.penalty = course.penalty()
         self.version = hashlib.sha256("".join(master.digest for master in self.masters.values()).encode()).hexdigest()
         self.done: dict[str, StudentReport] = {}
-        self.waiting: list[_Landed] = []
+        self.waiting: list[Landed] = []
         self.committed = time.monotonic()
         self.total = 0
         self.shared: dict[str, str] = {}  # test cells that share the learner's process, with the reason
 
-    def grade(self, submissions: Mapping[str, Path], workers: int, *, force: bool) -> None:
+    def grade(self, submissions: Mapping[str, Path], workers: int | Client, *, force: bool) -> None:
         """Grade what is new or changed, ``workers`` at a time."""
         self.total = len(submissions)
         known = set(self.book.students()) if not self.course.create_students else None
@@ -156,25 +149,29 @@ class _Run:
                 todo[student] = folder
         if todo:
             self.book.add_course(self.course.id)
-            with self._plan() as plan:
-                plan, workers = _fitted(plan, min(workers, len(todo)))
-                self._work(plan, [_Task(student, folder) for student, folder in todo.items()], workers)
+            tasks = [Task(student, folder) for student, folder in todo.items()]
+            while tasks:
+                with self._plan() as plan:
+                    if isinstance(workers, int):
+                        plan, workers = _fitted(plan, min(workers, len(tasks)))
+                    tasks = self._work(plan, tasks, workers)
 
-    def _work(self, plan: Plan, todo: list[_Task], workers: int) -> None:
-        def work(task: _Task, number: int) -> _Landed:
-            plan.open_session.box.ahead = True
-            return self._one(plan, task)
-
-        hurried: list[_Task] = []
-        with Crew(work, workers, plan.descriptors) as crew:
+    def _work(self, plan: Plan, todo: list[Task], workers: int | Client) -> list[Task]:
+        """Grade these; what is still to be done, since the sandbox itself was lost, is returned."""
+        hurried: list[Task] = []
+        gone: list[Task] = []
+        with self._crew(plan, len(todo), workers) as crew:
             try:
                 for done in crew.each(todo, BATCH_SECONDS):
                     if done is not None:
                         task, landed = done
                         if isinstance(landed, Lost):
-                            self._land(_Landed(task.student, fault=str(landed)))
+                            self._land(Landed(task.student, fault=str(landed)))
                         elif landed.hurried:
                             hurried.append(dataclasses.replace(task, alone=True))
+                        elif landed.failed and not task.again and not plan.open_session.box.alive:
+                            gone.append(dataclasses.replace(task, again=True))
+                            publish.clear(self._place(task.student))
                         else:
                             self._land(landed)
                     self._commit(full=False)
@@ -183,36 +180,49 @@ class _Run:
                 for task in crew.unfinished:
                     publish.clear(self._place(task.student))
                 self._commit(full=True)
-        if hurried:
-            self._work(plan, hurried, 1)
+        return gone + (self._work(plan, hurried, 1) if hurried else [])
+
+    def _crew(self, plan: Plan, count: int, workers: int | Client) -> Crew[Task, Landed] | Cluster:
+        """Who does the work: processes of this machine, or a Dask cluster, which sees no folder of the course."""
+        if isinstance(workers, int):
+
+            def work(task: Task, number: int) -> Landed:
+                plan.open_session.box.ahead = True
+                read = self._read(task)
+                return read if isinstance(read, Landed) else self._laid_out(judged(plan, task, read))
+
+            return Crew(work, workers, plan.descriptors)
+        module: Any = importlib.import_module("autograder.fleet.cluster")
+        job = module.Job.of(self.course, self.row.name, plan, self._posed())
+        return module.Cluster(workers, job, count, plan.seed, self._read, self._laid_out)  # type: ignore[no-any-return]
 
     def _place(self, student: str) -> Path:
         return self.course.path("autograded", student, self.row.name)
 
-    def _one(self, plan: Plan, task: _Task) -> _Landed:
-        """In a worker: grade one submission and lay its files out beside their place."""
+    def _read(self, task: Task) -> Submission | Landed:
         try:
-            submitted = read_folder(task.folder, ignore=self.course.ignore, bounds=self.course.bounds)
-            outcome = grade_one(plan, task.student, submitted)
-        except SubmissionError as error:  # no date, or no folder: nbgrader drops such a submission too
-            return _Landed(task.student, broken=str(error))
-        except Exception as error:  # the grader's own fault: named, never a zero, and tried again in the next run
-            log.exception("grading %s failed", task.student)
-            fault = str(error) if isinstance(error, SandboxError) else f"{type(error).__name__}: {error}"
-            return _Landed(task.student, fault=fault)
-        if outcome.hurried and not task.alone:
-            return _Landed(task.student, hurried=True)
-        staged, unwritten = None, ""
-        if outcome.files:
-            mode = self.course.permissions("Autograde")
-            try:
-                place = self._place(task.student)
-                staged = publish.stage(place, outcome.files, mode=mode, groupshared=self.course.groupshared)
-            except OSError as error:  # a full disk, say: what is not published is graded again in the next run
-                unwritten = f"the graded notebook could not be written: {error.strerror or error}"
-        return _Landed(task.student, dataclasses.replace(outcome, files={}), staged, unwritten=unwritten)
+            return read_folder(task.folder, ignore=self.course.ignore, bounds=self.course.bounds)
+        except SubmissionError as error:
+            return Landed(task.student, broken=str(error))
+        except OSError as error:
+            return Landed(task.student, fault=f"the submission could not be read: {error.strerror or error}")
 
-    def _land(self, landed: _Landed) -> None:
+    def _laid_out(self, landed: Landed) -> Landed:
+        """The files of a graded submission beside their place."""
+        if landed.outcome is None or not landed.outcome.files:
+            return landed
+        staged, unwritten = None, ""
+        try:
+            staged = publish.stage(
+                self._place(landed.student), landed.outcome.files, mode=self.course.permissions("Autograde"),
+                groupshared=self.course.groupshared,
+            )  # fmt: skip
+        except OSError as error:  # a full disk, say: what is not published is graded again in the next run
+            unwritten = f"the graded notebook could not be written: {error.strerror or error}"
+        outcome = dataclasses.replace(landed.outcome, files={})
+        return dataclasses.replace(landed, outcome=outcome, staged=staged, unwritten=unwritten)
+
+    def _land(self, landed: Landed) -> None:
         if landed.fault:
             self._settled(StudentReport(landed.student, "failed", faults=(landed.fault,)))
             return
@@ -295,9 +305,7 @@ class _Run:
 
     @contextlib.contextmanager
     def _plan(self) -> Iterator[Plan]:
-        checked = [cell.exercise for master in self.masters.values() for cell in master.graded if cell.exercise]
-        exercises = {name: found for name in checked if (found := self.course.exercise(name)) is not None}
-        course = self.course
+        course, exercises = self.course, self._posed()
         drawing = threading.Thread(target=_load_drawing, daemon=True)
         if exercises:
             drawing.start()
@@ -308,9 +316,15 @@ class _Run:
             scripts = course.scripts(self.row, self.masters, open_session)
             self.shared = {f"{name}.ipynb: {cell}": why for name in scripts for cell, why in scripts[name].shared.items()}
             yield Plan(
-                course, self.row, self.masters, course.instructor_files(self.row.name), course.secret(),
-                exercises.get, open_session, scripts, frozenset({open_session.box.descriptor}),
+                Rules.of(course), self.masters, course.instructor_files(self.row.name),
+                functools.partial(hidden_seed, course.secret()), exercises.get, open_session, scripts,
+                frozenset({open_session.box.descriptor}),
             )  # fmt: skip
+
+    def _posed(self) -> dict[str, Exercise]:
+        """The exercises of this assignment, by name, in their order."""
+        checked = [cell.exercise for master in self.masters.values() for cell in master.graded if cell.exercise]
+        return {name: found for name in checked if (found := self.course.exercise(name)) is not None}
 
     @property
     def available(self) -> float:
@@ -326,16 +340,9 @@ class _Run:
             if student in standings:
                 full = self._with_standing(full, standings[student])
             students.append(dataclasses.replace(full, available=self.available, name=names.get(student, "")))
-        titles = {exercise.id: exercise.title for exercise in self._exercises()}
+        titles = {exercise.id: exercise.title for exercise in self._posed().values()}
         course = self.course.id or self.course.folder.name
         return GradeReport(course, self.row.name, self.level, tuple(students), seconds, self.available, titles, self.shared)
-
-    def _exercises(self) -> Iterator[Exercise]:
-        for master in self.masters.values():
-            for cell in master.graded:
-                found = self.course.exercise(cell.exercise) if cell.exercise else None
-                if found is not None:
-                    yield found
 
 
 def _fitted(plan: Plan, workers: int) -> tuple[Plan, int]:

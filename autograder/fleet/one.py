@@ -14,7 +14,7 @@ from autograder.course import Course
 from autograder.errors import SubmissionError
 from autograder.exercise import Exercise
 from autograder.fleet.result import CellReport, Status, StudentReport
-from autograder.gradebook import AssignmentRow, NotebookMarks, Record
+from autograder.gradebook import NotebookMarks, Record
 from autograder.notebook import limit, own
 from autograder.notebook.apart import Apart, Script
 from autograder.notebook.marks import Mark
@@ -22,7 +22,6 @@ from autograder.notebook.master import Master, MasterCell
 from autograder.notebook.rebuild import Rebuilt, rebuild
 from autograder.notebook.run import Ran, run
 from autograder.notebook.score import annotate, marks, unanswered
-from autograder.notebook.secret import hidden_seed
 from autograder.notebook.session import Opener
 from autograder.notebook.submission import Submission, beside, digest, harmless, parse
 from autograder.notebook.timestamps import handed_in
@@ -30,14 +29,28 @@ from autograder.notebook.written import dumps
 
 
 @dataclass(frozen=True)
-class Plan:
-    """What all submissions of an assignment share."""
+class Rules:
+    """The course's settings that decide how a notebook is rebuilt and what of its outputs is kept."""
 
-    course: Course
-    assignment: AssignmentRow
+    add_missing: bool
+    missing_notification: str
+    ignore_pattern: str
+    output_limits: tuple[int, int]
+
+    @classmethod
+    def of(cls, course: Course) -> Rules:
+        """Those of a course."""
+        return cls(course.add_missing, course.missing_notification, course.ignore_pattern, course.output_limits)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What all submissions of an assignment share. ``seed`` of the hidden data: student, exercise, digest of the notebook."""
+
+    rules: Rules
     masters: Mapping[str, Master]
     instructor_files: Mapping[str, bytes]
-    secret: bytes = field(repr=False)
+    seed: Callable[[str, str, str], bytes] = field(repr=False)
     exercises: Callable[[str], Exercise | None]
     open_session: Opener
     scripts: Mapping[str, Script] = field(default_factory=dict)  # how ordinary test cells run, by notebook
@@ -99,7 +112,7 @@ class _Work:
 
     def grade(self, name: str, master: Master) -> None:
         """Grade one notebook, or say why not."""
-        course = self.plan.course
+        rules = self.plan.rules
         data = self.submitted.notebooks.get(name)
         reason = self.submitted.left_out.get(f"{name}.ipynb")
         if data is None and reason is not None:  # too large, say: it was handed in, and somebody should know
@@ -111,14 +124,14 @@ class _Work:
             self.notes.append(f"{name}.ipynb: not handed in")
             return
         try:
-            built = rebuild(parse(data), master, add_missing=course.add_missing, missing=course.missing_notification)
+            built = rebuild(parse(data), master, add_missing=rules.add_missing, missing=rules.missing_notification)
         except SubmissionError as error:
             self._unread(name, master, str(error))
             return
         ran = self._run(built, master, digest(data))
         self.hurried = self.hurried or ran.hurried
-        limit.ignore_stderr(built.cells, course.ignore_pattern)
-        limit.limit_outputs(built.cells, *course.output_limits)
+        limit.ignore_stderr(built.cells, rules.ignore_pattern)
+        limit.limit_outputs(built.cells, *rules.output_limits)
         given = marks(built, ran)
         annotate(built, given)
         self.marks[name] = NotebookMarks(given, unanswered(built))
@@ -140,7 +153,7 @@ class _Work:
 
     def _run(self, built: Rebuilt, master: Master, submission: str) -> Ran:
         def seed(exercise: str) -> bytes:
-            return hidden_seed(self.plan.secret, self.student, exercise, submission)
+            return self.plan.seed(self.student, exercise, submission)
 
         files = {**self.files, **self.plan.instructor_files}
         script = self.plan.scripts.get(master.notebook)

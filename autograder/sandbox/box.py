@@ -83,6 +83,11 @@ class Sandbox:
         """The open file that a forked process needs to open sessions here too."""
         return self._control.fileno()
 
+    @property
+    def alive(self) -> bool:
+        """Whether the zygote runs, as far as the process that made this sandbox knows."""
+        return self._keeper.is_alive()
+
     def open(
         self,
         files: Mapping[str, bytes] | Path | str | None = None,

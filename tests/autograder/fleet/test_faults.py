@@ -103,7 +103,7 @@ def test_a_disk_that_is_full_is_named_and_the_next_run_mends_it(big_class, monke
 
 
 def test_a_fault_of_the_grader_is_no_zero_and_is_tried_again(big_class, monkeypatch):
-    module = importlib.import_module("autograder.fleet.grade")
+    module = importlib.import_module("autograder.fleet.task")
     real = module.grade_one
 
     def fails(plan, student, submitted):

@@ -39,7 +39,7 @@ def test_what_was_only_too_slow_once_is_graded_alone(ordinary, tmp_path, monkeyp
     """The first run is stopped by the clock; the second, alone, has the time that it needs, and full marks."""
     import importlib
 
-    module = importlib.import_module("autograder.fleet.grade")
+    module = importlib.import_module("autograder.fleet.task")
     real = module.grade_one
     seen = tmp_path / "seen"
 
