@@ -51,8 +51,9 @@ AUTOGRADER = {
     "authoring": ("course",),
     "demo": ("catalogue", "notebook"),
     "report": ("fleet",),
+    "collect": ("fleet",),
     "integrity": ("report",),
-    "cli": ("integrity", "report", "doctor", "demo", "authoring", "checking"),
+    "cli": ("integrity", "collect", "report", "doctor", "demo", "authoring", "checking"),
     "__main__": ("cli",),
 }
 # Which rooms of the library the autograder's rooms may see: cards draw; everything else judges callables and arrays.

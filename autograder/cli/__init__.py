@@ -7,7 +7,7 @@ import sys
 
 import typer
 
-from autograder.cli import author, course, grading, machine, reading
+from autograder.cli import author, collecting, course, grading, machine, reading
 from autograder.errors import DirectrixError
 
 app = typer.Typer(
@@ -24,6 +24,7 @@ app.add_typer(author.author, name="author")
 app.command()(course.release)
 app.command()(course.lab)
 app.command()(grading.check)
+app.command()(collecting.collect)
 app.command()(grading.grade)
 app.command()(grading.feedback)
 app.command()(reading.similar)
