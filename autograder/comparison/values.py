@@ -7,7 +7,7 @@ a basis, whose values lie between 0 and 1 whatever the degree and the knots, wit
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 from autograder.comparison.answers import Answer, Array, Numbers, Raised, Several, Unreadable, Word
 from autograder.comparison.maps import agree
 from autograder.comparison.target import Target
+from autograder.messages import listing, written
 
 FLOOR = 1e-12  # rounding errors relative to the data
 MOST_PATTERN = 20_000  # larger arrays are not searched for patterns
+MOST_NAMED = 8  # points that are told one by one
 
 
 @dataclass(frozen=True)
@@ -176,6 +178,10 @@ def _factor(a: Array, b: Array, enough: float) -> Pattern | None:
         offset = float((a - b).mean())
         if agree(a, b + offset, enough):
             return Pattern("value.offset", {"offset": offset})
+        if _of_points(b):
+            shift = (a - b).reshape(-1, 3).mean(axis=0)
+            if agree(a, b + shift, enough):
+                return Pattern("value.shifted", {"shift": written(shift)})
         with np.errstate(divide="ignore", invalid="ignore"):
             signs_only = agree(np.abs(a), np.abs(b), enough)
         if signs_only:
@@ -234,5 +240,38 @@ def _partly_right(a: Array, b: Array, enough: float) -> Pattern | None:
             if factor is not None:
                 key = "value.items_factor" if b.ndim == 1 else "value.layers_factor"
                 return Pattern(key, {**facts, "factor": factor})
+            single = _points_right(right)
+            if single is not None and axis < b.ndim - 1 and np.take(right.all(axis=-1), wrong, axis).any():
+                return single  # which says more than layers that are wrong in part
             return Pattern("value.items" if b.ndim == 1 else "value.layers", facts)
-    return Pattern("value.entries", {"count": total - count, "total": total})
+    return _points_right(right) or Pattern("value.entries", {"count": total - count, "total": total})
+
+
+def _of_points(b: NDArray[Any]) -> bool:
+    """Whether it is a net of several points or vectors."""
+    return b.ndim > 1 and b.shape[-1] == 3 and b.size > 3
+
+
+def _points_right(right: NDArray[np.bool_]) -> Pattern | None:
+    """Which points of a net are right and which are not, by naming the fewer of them; None where they are too many to name."""
+    if not _of_points(right):
+        return None
+    points = right.all(axis=-1)
+    mostly = points.sum() * 2 >= points.size
+    named = np.argwhere(points != mostly)
+    if not points.any() or len(named) > MOST_NAMED:
+        return None
+    places = listing("[" + ", ".join(map(str, place)) + "]" for place in named.tolist())
+    return Pattern("value.points_wrong" if mostly else "value.points_right", {"places": places, "of": int(points.size)})
+
+
+def sense(differences: Sequence[float]) -> Pattern | None:
+    """What the differences of single numbers have in common, from one data set to the other."""
+    if len(differences) < 2 or not np.isfinite(differences).all():
+        return None
+    first = differences[0]
+    if all(abs(d - first) <= 1e-9 * abs(first) for d in differences):
+        return Pattern("value.always_off", {"offset": first})
+    if all(d > 0 for d in differences):
+        return Pattern("value.always_larger")
+    return Pattern("value.always_smaller") if all(d < 0 for d in differences) else None

@@ -31,6 +31,7 @@ from autograder.diagnosis.wording import (
     named,
     pair_written,
     relabelled,
+    sense_text,
     spoken,
     spoken_answer,
     spoken_truth,
@@ -399,7 +400,9 @@ class Explanation:
                 ("look", say("look.close")),
             ]
         look = self._look_of_contrast() or say("look.value")
-        return [*parts, *value_wrong(finding, answer, expected), *value_where(finding, data), ("look", look)]
+        told = sense_text(self.wrong)
+        sense: Parts = [("wrong", told)] if told else []
+        return [*parts, *value_wrong(finding, answer, expected), *sense, *value_where(finding, data), ("look", look)]
 
     def _no_error(self, answer: Answer, data: str) -> Parts:
         look = ("look", say("look.error_expected"))

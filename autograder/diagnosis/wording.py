@@ -83,6 +83,22 @@ def value_wrong(finding: Finding, answer: Answer, expected: Answer) -> Parts:
     return [("wrong", say("wrong.value"))]
 
 
+def sense_text(findings: Sequence[Finding]) -> str | None:
+    """What single numbers that are wrong, and are no fixed multiple of the right ones, have in common over the data sets."""
+    differences = []
+    for finding in findings:
+        answer, expected = finding.gated.answer, finding.target.expected
+        if not isinstance(answer, Numbers) or not isinstance(expected, Numbers) or expected.was == "bool":
+            return None
+        if answer.values.ndim or expected.values.ndim:
+            return None
+        differences.append(float(answer.values - expected.values))
+    found = value_rungs.sense(differences)
+    if found is None or any(finding.pattern is not None for finding in findings):
+        return None
+    return say(found.key, **{key: number(value, 6) for key, value in found.facts.items()})
+
+
 def word_text(answer: Answer, expected: Word, finding: Finding) -> str:
     """What is wrong with a word."""
     if not isinstance(answer, Word):

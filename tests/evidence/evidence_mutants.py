@@ -27,10 +27,12 @@ from evidence_solutions import Solution, solutions
 from autograder import messages
 from autograder.catalogue import shipped
 from autograder.errors import CallFailed
-from autograder.exercise import Exercise
+from autograder.exercise import PUBLIC_SEED, Exercise
 from autograder.judge import judge
 
-ORACLE_SEEDS = [f"oracle {number}" for number in range(6)]
+JUDGED = b"a course, a learner, an assignment"  # the seed of the hidden data
+# The data that are judged, and others: what is equal on both is right, what differs on either must not pass.
+ORACLE_SEEDS = [PUBLIC_SEED, JUDGED, *(f"oracle {number}" for number in range(6))]
 ONE_CALL = 5.0  # seconds of processor time, as the sandbox would stop it
 HARD = 90  # seconds of processor time for all of one mutant
 MEMORY = 2 << 30  # above what the process has when it is made
@@ -187,7 +189,7 @@ def _examine(
 def _judged(exercise: Exercise, function: Callable[..., Any], known: Outcome) -> Outcome:
     for key, text in messages.TEXT.items():
         messages.TEXT[key] = f"⟦{key}⟧{text}"  # in this child only
-    verdict = judge(exercise, _guarded(function), seed=b"a course, a learner, an assignment", figure=False)
+    verdict = judge(exercise, _guarded(function), seed=JUDGED, figure=False)
     keys = tuple(dict.fromkeys(MARK.findall(verdict.message)))
     passed = verdict.fraction == 1.0
     told = "" if passed else "named" if verdict.mistake else tells(keys)

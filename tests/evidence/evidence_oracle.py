@@ -144,6 +144,9 @@ def off_the_quarter(points: Array, r: float, h: float, form: str) -> float:
     off += [np.maximum(-z * np.sign(h), 0).max(), np.maximum(np.abs(z) - abs(h), 0).max()]
     if form == "scattered places":  # the first four of these are the corners
         off.append(np.abs(points[:4] - [[r, 0, 0], [r, 0, h], [0, r, 0], [0, r, h]]).max())
+    if form == "simple fractions":  # the four edges must be the set's own, or a part of it is left out
+        x, y, z = np.moveaxis(points.reshape(FRACTIONS[2] + 1, FRACTIONS[2] + 1, 3), -1, 0)
+        off += [np.abs(z[:, 0]).max(), np.abs(z[:, -1] - h).max(), np.abs(y[0]).max(), np.abs(x[-1]).max()]
     return float(max(off))
 
 
@@ -166,13 +169,16 @@ def off_the_turned(points: Array, profile: Array, h: Array, form: str) -> float:
         return np.minimum(np.linalg.norm(mine - curve, axis=-1), np.linalg.norm(mine - curve * [-1, 1], axis=-1))
 
     line = np.linspace(0, 1, 801)
-    nearest = line[np.argmin([away(np.full(len(mine), t)) for t in line], axis=0)]
-    low, high = np.clip(nearest - 1 / 800, 0, 1), np.clip(nearest + 1 / 800, 0, 1)
-    for _ in range(60):
-        a, b = low + (high - low) / 3, high - (high - low) / 3
-        left = away(a) < away(b)
-        low, high = np.where(left, low, a), np.where(left, b, high)
-    off = [float(away((low + high) / 2).max())]
+    distances = np.array([away(np.full(len(mine), t)) for t in line])
+    best = np.full(len(mine), np.inf)
+    for start in np.argsort(distances, axis=0)[:4]:  # the nearest node need not lie beside the nearest place
+        low, high = np.clip(line[start] - 1 / 800, 0, 1), np.clip(line[start] + 1 / 800, 0, 1)
+        for _ in range(45):
+            a, b = low + (high - low) / 3, high - (high - low) / 3
+            left = away(a) < away(b)
+            low, high = np.where(left, low, a), np.where(left, b, high)
+        best = np.minimum(best, away((low + high) / 2))
+    off = [float(best.max())]
     if form == "scattered places":  # the first four of these are the corners
         ends = [(r, 0.0, z) for r, z in np.asarray(profile)[[0, 0, -1, -1]]]
         off.append(float(np.abs(points[:4] - ends).max()))

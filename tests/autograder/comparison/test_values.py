@@ -47,8 +47,12 @@ def off_by(place, by=1.0):
         (NET, NET[[2, 0, 3, 1]], "another order"),
         (NET, np.abs(NET), "have the wrong sign"),
         (NET, off_by((slice(None), 1)), "Along axis 1, 1 of 3 layers are wrong (number 1)"),
+        (SQUARE, SQUARE + [1, 2, 3], "too much everywhere in your table: (1, 2, 3)"),
+        (SQUARE, SQUARE + np.eye(4)[..., None] * [1, 2, 3], "all its 16 places but [0, 0], [1, 1], [2, 2] and [3, 3]"),
+        (SQUARE, SQUARE + (1 - np.eye(4))[..., None] * SQUARE**2, "only [0, 0], [1, 1], [2, 2] and [3, 3] are right"),
+        (SQUARE, SQUARE + np.outer([0, 1, 1, 0], [0, 1, 0, 0])[..., None] * SQUARE**2, "places but [1, 1] and [2, 1]"),
         (NET, NET * np.array([1, 1, 2]), "Along axis 2, 1 of 3 layers are wrong (number 2): they are 2 times"),
-        (NET, NET + np.eye(4)[:, :3, None], "3 of 4 layers are wrong (number 0, 1, 2)"),
+        (NET, NET + np.eye(4)[:, :3, None], "all its 12 places but [0, 0], [1, 1] and [2, 2]"),
         (np.array([1.0, 2, 3, 4]), np.array([1.0, 2, 6, 8]), "2 of 4 entries are wrong (number 2, 3): they are 2 times"),
         (np.float64(0.75), 1.5, "2 times the right one"),
         (np.float64(0.75), 0.71, "not the right value"),
@@ -64,6 +68,28 @@ def test_a_wrong_value_is_told_by_its_pattern(right, wrong, said):
     verdict = judge(posed(right, kind="label" if isinstance(right, str) else "net"), lambda a: wrong)
     assert verdict.fraction == 0.0
     assert said in verdict.message
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (lambda a: a**2 + 2, "the right one plus 2"),
+        (lambda a: a**2 + a, "too large on every data set"),
+        (lambda a: a**2 - a, "too small on every data set"),
+        (lambda a: 9.0, None),
+    ],
+)
+def test_what_single_numbers_have_in_common_from_one_data_set_to_the_other(wrong, said):
+    @exercise(points=1, title="A number", kind="value")
+    def square(a):
+        """Return a squared."""
+        return a**2
+
+    for name, value in (("low", 2.5), ("high", 3.5)):
+        square.data_sets.append(DataSet(name, lambda rng, value=value: {"a": value}))
+    message = judge(square, wrong).message
+    assert message.count("on every data set") + message.count("On every data set") == (said is not None)
+    assert said is None or said in message
 
 
 def test_the_right_word_is_not_told():
