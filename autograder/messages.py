@@ -206,6 +206,7 @@ TEXT: dict[str, str] = {
     "fact.coordinate_offset": "{name} is off by {offset} everywhere.",
     "fact.coordinates_exchanged": "Its coordinates are exchanged: your {yours} is the right {expected}.",
     "fact.factor": "Every point is {factor} times as far from the origin as it should be.",
+    "fact.steady": "How far it is off, and which way, is the same for every {names}: what it does with {names} is right.",
     "fact.factor_field": "Every vector is {factor} times as long as it should be.",
     # --- where
     "where.point": "Furthest off on {data}, at {place}: your point is {yours}, the right one is {expected}.",
@@ -231,6 +232,7 @@ TEXT: dict[str, str] = {
     "look.close": "Look for a rounded constant (np.pi has all its digits) or for float32.",
     "look.float32": "Look for float32 or dtype=..., and leave it out.",
     "look.unused": "Look for where {name} should come in.",
+    "look.steady": "Look at {zeros}: what is too much there, or missing, is so for every {names}.",
     "look.inside": "Look at the term that vanishes on the edges.",
     "look.corners": "Look at what happens between the corners: how do the points along an edge get their place?",
     "look.coordinate": "Look at the line that makes {names}.",

@@ -21,7 +21,7 @@ from autograder.comparison.target import Target
 from autograder.diagnosis.contrast import Contrast, contrast
 from autograder.diagnosis.holding import Told, of_data, right_places
 from autograder.diagnosis.ladder import Finding, Recognised, common
-from autograder.diagnosis.places import AXES, Localised, coordinate_fact, localise
+from autograder.diagnosis.places import AXES, Localised, coordinate_fact, localise, steady
 from autograder.diagnosis.regions import region
 from autograder.diagnosis.wording import (
     Parts,
@@ -335,18 +335,30 @@ class Explanation:
         if 0 < len(wrong) < len(where.coordinates):
             key = "fact.coordinates_wrong" if len(wrong) > 1 else "fact.coordinate_wrong"
             text = say("wrong.different", noun=self.noun, amount=away)
-            return [text, say(key, names=listing(wrong))], look or say("look.coordinate", names=listing(wrong))
+            texts = [text, say(key, names=listing(wrong)), *self._steady(maps)[0]]
+            return texts, look or say("look.coordinate", names=listing(wrong))
         if where.inside_only and len(names) > 1:
             return [say("wrong.different_inside", amount=away)], say("look.inside")
         if len(where.corners) == where.all_corners and not where.sides:
             return [say("wrong.different_corners", amount=away)], say("look.corners")
         if look is not None:
             return [say("wrong.different", noun=self.noun, amount=away)], look
+        told, look = self._steady(maps)
+        if look is not None:
+            return [say("wrong.different", noun=self.noun, amount=away), *told], look
         if len(where.sides) == 1:
             axis, end = where.sides[0]
             look = say("look.edge", name=names[axis], start=end, end=1 - end)
             return [say("wrong.different", noun=self.noun, amount=away)], look
         return [say("wrong.different", noun=self.noun, amount=away)], say("look.worst")
+
+    def _steady(self, maps: Sequence[Sampled]) -> tuple[list[str], str | None]:
+        """The parameters that change nothing in how far it is off, and what to look at then."""
+        names = [self._names()[axis] for axis in steady(maps)]
+        if not names:
+            return [], None
+        zeros = listing(f"{name} = 0" for name in names)
+        return [say("fact.steady", names=listing(names))], say("look.steady", names=listing(names), zeros=zeros)
 
     def _coordinates(self, maps: Sequence[Sampled]) -> tuple[list[str], str | None]:
         """One rule for a coordinate that explains all of it, and what to look at then."""

@@ -79,6 +79,20 @@ def _still(values: Array, f: Sampled, axis: int) -> bool:
     return bool((np.abs(layers - layers[:1]) <= f.target.allowed).all())
 
 
+def steady(maps: Sequence[Sampled]) -> tuple[int, ...]:
+    """Axes along which the difference to the right map does not change, on any of these maps, though the map itself does.
+
+    What the function does with such a parameter is right: f(u, w) = g(u, w) + e(w).
+    """
+    axes = range(maps[0].target.samples.dimension)
+    found = tuple(
+        axis
+        for axis in axes
+        if all(_still(f.values - f.expected, f, axis) for f in maps) and not all(_still(f.expected, f, axis) for f in maps)
+    )
+    return found if len(found) < len(axes) else ()
+
+
 @dataclass(frozen=True)
 class CoordinateFact:
     """One thing to say of all points at once: a key of the catalogue and its facts."""

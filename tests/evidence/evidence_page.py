@@ -162,6 +162,7 @@ def write(command: str, rows: Sequence[Mapping[str, Any]], said: str) -> None:
     """Keep the totals of a campaign and make the page anew."""
     kept = json.loads(RESULTS.read_text("utf-8")) if RESULTS.exists() else {}
     kept[command] = {"command": said, "date": date.today().isoformat(), "version": _version(), "totals": totals(command, rows)}
+    kept = {name: kept[name] for name in SECTIONS if name in kept}
     RESULTS.write_text(json.dumps(kept, indent=2) + "\n", "utf-8")
     PAGE.write_text(rendered(kept), "utf-8")
 

@@ -105,6 +105,14 @@ class TestPlaces:
         assert "It does not change with w at all." in verdict.part("wrong")
         assert verdict.part("look") == "Look for where w should come in."
 
+    def test_an_error_that_one_parameter_does_not_change(self, arch):
+        """f(u, w) = g(u, w) + e(w): what becomes of u is right. Not claimed where both parameters change it."""
+        verdict = self.parts(arch, lambda u, w, a: stack(np.cos(3 * w) + 0 * u, a * w**2 + 0 * u, 1 + w + 0 * u))
+        assert "is the same for every u: what it does with u is right." in verdict.part("wrong")
+        assert verdict.part("look") == "Look at u = 0: what is too much there, or missing, is so for every u."
+        both = self.parts(arch, lambda u, w, a: stack(np.cos(3 * w) + u**2, a * w**2 + u, 1 + w * u))
+        assert "same for every" not in both.message
+
     def test_the_worst_point_is_given_with_both_values(self, arch):
         verdict = judge(arch, changed(arch, lambda u, w, a: stack(0 * u, 0 * u, a * (u * w) ** 4)))
         where = verdict.part("where")
