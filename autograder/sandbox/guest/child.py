@@ -74,7 +74,7 @@ class Server:
         self.link, self.limits, self.shell, self.work = link, limits, shell, work
         self.seed = 0
         self.calls = 0
-        self.peer: socket.socket | None = None  # to the process of the tests, or of the code that they test
+        self.peer: Peer | None = None  # the process of the tests, or of the code that they test
 
     def answer(self) -> None:
         """Read one request and answer it."""
@@ -96,7 +96,7 @@ class Server:
         """The first request, which may bring a socket along: the one to another notebook's process."""
         data, descriptors, *_ = socket.recv_fds(self.link, wire.HEADER.size, 1, socket.MSG_CMSG_CLOEXEC)
         if descriptors:
-            self.peer = socket.socket(fileno=descriptors[0])
+            self.peer = Peer(socket.socket(fileno=descriptors[0]), _nothing)  # one for life: functions keep their numbers
         _, length, exchange = wire.header(data + self._receive(wire.HEADER.size - len(data)), MAX_REQUEST)
         return exchange, wire.decode(self._receive(length), depth=RESULT_DEPTH, items=MAX_REQUEST, raw=True)
 
@@ -163,14 +163,15 @@ class Server:
                 within -= 1
                 left -= time.process_time() - began if not within else 0.0
 
+        self.peer.find, self.peer.printed, self.peer.timed = self.shell.user_ns.__getitem__, printed, timed
         with warnings.catch_warnings():  # which makes every warning fresh again: each test cell meets its own
-            Peer(self.peer, self.shell.user_ns.__getitem__, printed, timed).serve()
+            self.peer.serve()
 
     def apart(self, source: str, names: tuple[str, ...], cpu: float, wall: float, output: int, outputs: int) -> tuple[Any, ...]:
         """Run a test cell here whose ``names`` are the other process's: functions stand in for its own, data are copied."""
         assert self.peer is not None
-        peer = Peer(self.peer, _nothing)
-        namespace = self.shell.user_ns
+        peer, namespace = self.peer, self.shell.user_ns
+        peer.lost.clear()
         try:
             with _timed(cpu, wall), warnings.catch_warnings():
                 for name in names:
@@ -189,8 +190,10 @@ class Server:
             status = "ok"
         finally:
             peer.end()
-        if peer.lost and status == "ok":  # the test went on without an answer that it asked for
-            self.shell.recorder.error("NoAnswer", peer.lost[0], [f"NoAnswer: {peer.lost[0]}"])
+        if peer.lost and status == "ok":  # the test went on without an answer that it asked for: nor is its result one
+            recorder = self.shell.recorder
+            recorder.outputs = [output for output in recorder.outputs if output[0] != "execute_result"]
+            recorder.error("NoAnswer", peer.lost[0], [f"NoAnswer: {peer.lost[0]}"])
             status = "error"
         return (status, self.shell.number, *self.shell.shown())
 

@@ -22,6 +22,8 @@ from typing import Any
 import numpy as np
 
 DEPTH = 24  # of containers in containers
+# Of a function: what can be learned of it without calling it.
+INSIDE = "__code__ __closure__ __defaults__ __kwdefaults__ __globals__ __annotations__ __signature__".split()
 WIRE_DEPTH = 3 * DEPTH + 8  # each container takes up to three tuples of the wire
 MESSAGE = 2000  # characters kept of an error's message
 CONTAINERS: dict[str, type] = {"list": list, "tuple": tuple, "set": set, "frozenset": frozenset}
@@ -46,13 +48,19 @@ class Functions:
     ----------
     call : callable
         ``call(number, arguments, keywords)`` calls the other side's function of that number.
+    refuse : callable
+        What is raised where somebody looks into such a function instead of calling it, given a sentence.
     """
 
-    def __init__(self, call: Callable[[int, tuple[Any, ...], dict[str, Any]], Any]) -> None:
-        self._call = call
+    def __init__(
+        self,
+        call: Callable[[int, tuple[Any, ...], dict[str, Any]], Any],
+        refuse: Callable[[str], BaseException] = AttributeError,
+    ) -> None:
+        self._call, self._refuse = call, refuse
         self._own: list[Any] = []
         self._numbers: dict[int, int] = {}  # by id: what is listed is never let go, so ids stay its own
-        self._theirs: dict[int, Callable[..., Any]] = {}
+        self._theirs: dict[int, Remote] = {}
 
     def number(self, function: Any) -> int:
         """The number of a function of this side."""
@@ -70,20 +78,41 @@ class Functions:
     def remote(self, number: int, name: str, doc: str | None) -> Callable[..., Any]:
         """What stands here for the other side's function; the same one each time."""
         if number not in self._theirs:
-
-            def stand_in(*arguments: Any, **keywords: Any) -> Any:
-                return self._call(number, arguments, keywords)
-
-            stand_in.__name__ = stand_in.__qualname__ = name
-            stand_in.__doc__ = doc
-            stand_in.__directrix_number__ = number  # type: ignore[attr-defined]
-            self._theirs[number] = stand_in
+            self._theirs[number] = Remote(self._call, self._refuse, number, name, doc)
         return self._theirs[number]
 
     def is_theirs(self, value: Any) -> int | None:
         """The number on the other side of a stand-in made here, else None."""
-        number = getattr(value, "__directrix_number__", None) if type(value) is types.FunctionType else None
-        return number if number is not None and self._theirs.get(number) is value else None
+        if type(value) is not Remote:
+            return None
+        number: int = vars(value)["_number"]
+        return number if self._theirs.get(number) is value else None
+
+
+class Remote:
+    """Stands for a function of the other side: it is called, named and handed back, and is no function of this side.
+
+    A test that reads the text, the code or the signature of what it tests must not read those of a stand-in, where everybody
+    would pass: so there are none, and asking for them is refused.
+    """
+
+    def __init__(
+        self, call: Callable[..., Any], refuse: Callable[[str], BaseException], number: int, name: str, doc: str | None
+    ) -> None:
+        known = {"__name__": name, "__qualname__": name, "__doc__": doc, "__module__": "__main__"}
+        vars(self).update(known, _call=call, _refuse=refuse, _number=number)
+
+    def __call__(self, *arguments: Any, **keywords: Any) -> Any:
+        """What the function returns, or raises, on its own side."""
+        return self._call(self._number, arguments, keywords)
+
+    def __getattr__(self, name: str) -> Any:
+        if name in INSIDE:
+            raise self._refuse(f"{name} of {self.__name__} stays in the learner's process")
+        raise AttributeError(f"'function' object has no attribute '{name}'")
+
+    def __repr__(self) -> str:
+        return f"<function {self.__name__}>"
 
 
 def pack(value: Any, functions: Functions, depth: int = DEPTH) -> Form:
@@ -221,6 +250,41 @@ def _error(functions: Functions, nearest: str, name: str, arguments: Form) -> Ba
     if name != nearest:
         made.add_note(f"(raised as {name[:100]})")
     return made
+
+
+def changeable(value: Any) -> bool:
+    """Whether a function that is handed this could change it."""
+    if type(value) in (tuple, frozenset):
+        return any(map(changeable, value))
+    return type(value) in (list, dict, set, bytearray, np.ndarray)
+
+
+def restore(value: Any, changed: Any) -> Any:
+    """Give a value the content of its copy on the other side, in place where it can be changed; returns what it is now."""
+    kind = type(value)
+    if kind is not type(changed):
+        return changed
+    if kind is np.ndarray:
+        if value.shape != changed.shape or value.dtype != changed.dtype:
+            return changed
+        if value.tobytes() != changed.tobytes():
+            value[...] = changed
+    elif kind is list:
+        value[:] = [*map(restore, value, changed), *changed[len(value) :]]
+    elif kind is tuple:
+        return (*map(restore, value, changed), *changed[len(value) :])
+    elif kind is dict:
+        items = {key: restore(value[key], item) if key in value else item for key, item in changed.items()}
+        value.clear()
+        value.update(items)
+    elif kind is set:
+        value.clear()
+        value.update(changed)
+    elif kind is bytearray:
+        value[:] = changed
+    else:
+        return changed
+    return value
 
 
 _READERS: Mapping[str, Callable[..., Any]] = {

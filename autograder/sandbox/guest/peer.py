@@ -4,12 +4,15 @@ Both ends speak frames of :mod:`autograder.sandbox.wire` over one socket that on
 the calls that come meanwhile, so a test may hand a function over and have it called back. The learner's end may say anything
 at any time: the other end takes only the answer to its own question, of a bounded size, as values.
 
-    CALL   number of a function, arguments, keywords    REPLY  how, what, printed to stdout, printed to stderr
+    CALL   number of a function, arguments, keywords    REPLY  how, what, printed to stdout, printed to stderr, changed
     NAME   a name of the notebook                       END    nothing more is asked for now
 
 ``how`` is VALUE, RAISED (an exception, raised again here) or LOST (a sentence: there is a value, but it cannot cross, or the
 time is up). What is lost breaks the test off past every ``except Exception``, since a test that expects an error must not
 pass for want of an answer.
+
+Arguments are copies; where the function has changed them (sorted a list, written into an array), ``changed`` is what they are
+now, and the caller's own get that content: a test that says "leaves its argument alone" must see it.
 """
 
 from __future__ import annotations
@@ -30,6 +33,8 @@ from autograder.sandbox.guest.crossing import CannotCross
 MOST = 64 * 2**20  # bytes of one message
 NESTED = 50  # calls within calls, to and fro
 VALUE, RAISED, LOST = "value", "raised", "lost"
+# Raised in the midst of all(map(f, ...)) or a loop over it, these end it as if there were no more to test.
+ENDS_A_LOOP = (StopIteration, StopAsyncIteration, GeneratorExit)
 Printed = Callable[[], tuple[str, str]]
 
 
@@ -64,7 +69,7 @@ class Peer:
         timed: Callable[[], AbstractContextManager[None]] = contextlib.nullcontext,
     ) -> None:
         self.link, self.find, self.printed, self.timed = link, find, printed, timed
-        self.functions = crossing.Functions(self.call)
+        self.functions = crossing.Functions(self.call, self._lose)
         self.nested = 0
         self.lost: list[str] = []  # what could not be had since this was last emptied
 
@@ -86,7 +91,7 @@ class Peer:
             forms = crossing.pack(arguments, self.functions), crossing.pack(keywords, self.functions)
         except CannotCross as error:
             raise self._lose(f"the test hands over {error}, which cannot go to the learner's process") from None
-        return self._ask(wire.PEER_CALL, (number, *forms))
+        return self._ask(wire.PEER_CALL, (number, *forms), (arguments, keywords))
 
     def end(self) -> None:
         """Tell the other side that nothing more is asked for now."""
@@ -99,7 +104,7 @@ class Peer:
             while True:
                 self._serve_one(*self._receive())
 
-    def _ask(self, kind: int, request: tuple[Any, ...]) -> Any:
+    def _ask(self, kind: int, request: tuple[Any, ...], handed: tuple[Any, ...] = ()) -> Any:
         exchange = secrets.token_bytes(16)
         if self.nested >= NESTED:
             raise RecursionError(f"more than {NESTED} calls to and fro between a test and the code it tests")
@@ -109,24 +114,29 @@ class Peer:
             while True:
                 answered, name, body = self._receive()
                 if answered == wire.REPLY and name == exchange:
-                    return self._value(body)
+                    return self._value(body, handed)
                 if answered in (wire.PEER_CALL, wire.NAME):
                     self._serve_one(answered, name, body)
         finally:
             self.nested -= 1
 
-    def _value(self, body: Any) -> Any:
-        if not (isinstance(body, tuple) and len(body) == 4 and isinstance(body[2], str) and isinstance(body[3], str)):
+    def _value(self, body: Any, handed: tuple[Any, ...]) -> Any:
+        if not (isinstance(body, tuple) and len(body) == 5 and isinstance(body[2], str) and isinstance(body[3], str)):
             raise self._lose("the learner's process answers nonsense")
-        how, form, out, err = body
+        how, form, out, err, changed = body
         sys.stdout.write(out)
         sys.stderr.write(err)
         try:
             value = crossing.unpack(form, self.functions)
+            after = None if changed is None else crossing.unpack(changed, self.functions)
         except CannotCross as error:
             raise self._lose(f"the learner's process answers with {error}") from None
+        if after is not None:
+            crossing.restore(handed, after)
         if how == VALUE:
             return value
+        if how == RAISED and isinstance(value, ENDS_A_LOOP):
+            raise RuntimeError(f"the function raised {type(value).__name__}") from value
         if how == RAISED and isinstance(value, BaseException):
             raise value
         raise self._lose(str(value)[: crossing.MESSAGE])
@@ -141,33 +151,51 @@ class Peer:
         if kind == wire.REPLY:
             return  # an answer that nobody waits for any more
         self.printed()
-        how, form = self._answer(kind, request)
+        how, form, changed = self._answer(kind, request)
         try:
-            self._send(wire.REPLY, exchange, (how, form, *self.printed()))
+            self._send(wire.REPLY, exchange, (how, form, *self.printed(), changed))
         except wire.WireError as error:
-            self._send(wire.REPLY, exchange, (LOST, ("=", f"the answer cannot be sent: {error}"), "", ""))
+            self._send(wire.REPLY, exchange, (LOST, ("=", f"the answer cannot be sent: {error}"), "", "", None))
 
-    def _answer(self, kind: int, request: Any) -> tuple[str, crossing.Form]:
-        """Do what is asked, and pack what comes of it."""
+    def _answer(self, kind: int, request: Any) -> tuple[str, crossing.Form, crossing.Form | None]:
+        """Do what is asked, and pack what comes of it; with it what the arguments are now, if they have changed."""
+        handed: list[Any] = []  # arguments and keywords, and their form before
         try:
             with self.timed():
-                return VALUE, crossing.pack(self._do(kind, request), self.functions)
-        except (Ended, NoAnswer):
+                how, form = VALUE, crossing.pack(self._do(kind, request, handed), self.functions)
+        except Ended:
             raise
-        except TimeLimitExceeded as error:
-            return LOST, ("=", str(error))
+        except (TimeLimitExceeded, NoAnswer) as error:
+            return LOST, ("=", str(error)), None
         except CannotCross as error:
             what = str(request[0]) if kind == wire.NAME else "the answer"
-            return LOST, ("=", f"{what} is {error}, which cannot leave the notebook for this test")
+            return LOST, ("=", f"{what} is {error}, which cannot leave the notebook for this test"), None
         except BaseException as error:  # SystemExit too: it is the caller's to meet
-            return RAISED, crossing.pack_error(error, self.functions)
+            how, form = RAISED, crossing.pack_error(error, self.functions)
+        try:
+            return how, form, self._changed(*handed) if handed else None
+        except (CannotCross, wire.WireError) as error:
+            return LOST, ("=", f"an argument has {error} in it now, which cannot leave the notebook for this test"), None
 
-    def _do(self, kind: int, request: Any) -> Any:
+    def _do(self, kind: int, request: Any, handed: list[Any]) -> Any:
         if kind == wire.NAME:
             return self.find(*request)
-        number, arguments, keywords = request
+        number, *forms = request
         function = self.functions.own(number)
-        return function(*crossing.unpack(arguments, self.functions), **crossing.unpack(keywords, self.functions))
+        arguments, keywords = (crossing.unpack(form, self.functions) for form in forms)
+        values = (arguments, keywords)
+        if any(map(crossing.changeable, (*arguments, *keywords.values()))):
+            handed += [values, self._as_sent(values)]
+        return function(*arguments, **keywords)
+
+    def _changed(self, values: tuple[Any, ...], before: bytes) -> crossing.Form | None:
+        return self._packed(values) if self._as_sent(values) != before else None
+
+    def _as_sent(self, values: tuple[Any, ...]) -> bytes:
+        return wire.encode(self._packed(values), depth=crossing.WIRE_DEPTH)
+
+    def _packed(self, values: tuple[Any, ...]) -> crossing.Form:
+        return crossing.pack(values, self.functions, crossing.DEPTH + 1)
 
     def _send(self, kind: int, exchange: bytes, request: tuple[Any, ...]) -> None:
         body = wire.encode(request, depth=crossing.WIRE_DEPTH)

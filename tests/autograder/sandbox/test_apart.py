@@ -106,6 +106,75 @@ def test_the_test_sees_what_the_learner_has_bound_last_and_loses_what_is_gone(pa
     assert "not defined" in shown(tests.run_apart("x", ["x"], learner))
 
 
+LEAVES_ALONE = [
+    ("def f(xs): xs.sort()", "data = [3, 1, 2]\nf(data)", "data", "[1, 2, 3]"),
+    ("def f(xs): return list(xs)", "data = [3, 1, 2]\nf(data)", "data", "[3, 1, 2]"),
+    ("def f(x):\n    x += 1\n    return x", "import numpy as np\ndata = np.zeros(2)\nf(data)", "data.tolist()", "[1.0, 1.0]"),
+    ("def f(x): x['b'] = x.pop('a')", "data = {'a': 1}\nf(x=data)", "data", "{'b': 1}"),
+    ("def f(x): x[0][1].add(5)", "inner = {4}\ndata = [(1, inner)]\nf(data)", "sorted(inner)", "[4, 5]"),
+    ("def f(x): x.append(x[0](1))", "data = [abs]\nf(data)", "data[1:], data[0] is abs", "([1], True)"),
+    ("def f(x):\n    x[:] = [0]\n    raise ValueError", "data = [1]\ntry: f(data)\nexcept ValueError: pass", "data", "[0]"),
+    ("def f(g):\n    kept = []\n    g(kept)\n    return kept", "data = f(lambda xs: xs.append(7))", "data", "[7]"),
+]
+
+
+@pytest.mark.parametrize(("solution", "test", "look", "expected"), LEAVES_ALONE)
+def test_what_a_function_does_to_its_arguments_is_seen_by_the_test(pair, solution, test, look, expected):
+    result = ask(pair, solution, f"{test}\n{look}", "f")
+    assert (result.status, shown(result)) == ("ok", expected)
+
+
+def test_an_array_that_must_not_be_written_is_not(pair):
+    result = ask(pair, "def f(x): x[0] = 5", "import numpy as np\nx = np.zeros(2)\nx.flags.writeable = False\nf(x)", "f")
+    assert result.status == "error"
+    assert "read-only" in shown(result)
+
+
+LOOKS_INSIDE = [
+    "import inspect\nassert 'for' not in inspect.getsource(f)",
+    "assert 'sorted' not in f.__code__.co_names",
+    "import inspect\nassert 'key' not in inspect.signature(f).parameters",
+    "import dis\nassert not [i for i in dis.get_instructions(f) if i.opname == 'FOR_ITER']",
+    "assert f.__defaults__ is None",
+    "try:\n    assert 'for' not in str(f.__code__.co_code)\nexcept:\n    pass",
+]
+
+
+@pytest.mark.parametrize("test", LOOKS_INSIDE)
+def test_a_test_that_reads_the_function_instead_of_calling_it_cannot_pass_apart(pair, test):
+    """Apart it would read the stand-in, whoever's function it is; so it is found to need the learner's process."""
+    assert ask(pair, "def f(xs): return xs", test, "f").status == "error"
+
+
+def test_a_function_keeps_its_number_from_one_test_cell_to_the_next(pair):
+    learner, tests = pair
+    learner.run_cell("def second(): return 'second'")
+    tests.run_apart("kept = second", ["first", "second"], learner)
+    learner.run_cell("def first(): return 'first'")
+    assert shown(tests.run_apart("kept()", ["first", "second"], learner)) == "'second'"
+
+
+@pytest.mark.parametrize("error", ["StopIteration", "StopAsyncIteration", "GeneratorExit"])
+def test_an_error_that_would_end_a_loop_over_the_cases_does_not(pair, error):
+    test = "assert all(map(lambda x: f(x) == x * x, [1, 2]))\nfor y in map(f, [1]): assert y == 1"
+    assert ask(pair, f"def f(x): raise {error}", test, "f").status == "error"
+
+
+def test_a_result_that_came_about_without_an_answer_is_none(pair):
+    """The mark of a cell is what it returns: a bare ``except`` must not make points of an answer that cannot cross."""
+    result = ask(pair, "def f(x): return object()", "try:\n    f(-1)\nexcept:\n    points = 2\npoints", "f")
+    assert result.status == "error"
+    assert [output["output_type"] for output in result.outputs] == ["error"]
+
+
+def test_a_test_that_fails_in_what_it_handed_over_lets_the_learners_process_go_on(pair):
+    learner, _ = pair
+    result = ask(pair, "def f(g): return g(1)", "def g(x): return object()\nf(g)", "f")
+    assert result.status == "error"
+    assert learner.alive
+    assert learner.run_cell("1").status == "ok"
+
+
 CATCHALL = "try:\n    {}\nexcept {}:\n    pass\n"
 LOST = [
     ("def f(): return object()", "f()", "the answer is an object of type object, which cannot leave the notebook"),
