@@ -18,6 +18,7 @@ import contextlib
 import functools
 import importlib
 import logging
+import os
 import re
 import sys
 from collections.abc import Callable, Mapping
@@ -125,7 +126,9 @@ class Course:
         before, _, after = pattern.partition(marker)
         excluded = str(self.get("CourseDirectory", "student_id_exclude", "")).split(",")
         found = {}
-        for path in sorted(self.root.glob(f"{_literal(before)}*{_literal(after)}")):
+        head, slash, rest = after.partition("/")  # what lies below a link to nowhere cannot be listed, and the link can
+        paths = (path / rest if slash else path for path in self.root.glob(f"{_literal(before)}*{_literal(head)}"))
+        for path in sorted(path for path in paths if os.path.lexists(path) or _dangling(path.parent)):
             student = str(path.relative_to(self.root))[len(before) : len(str(path.relative_to(self.root))) - len(after)]
             if student and "/" not in student and not student.startswith(".") and student not in excluded:
                 found[student] = path
@@ -345,3 +348,8 @@ def _resolved(value: Any) -> Any:
 def _literal(text: str) -> str:
     """A path as a glob that matches only itself."""
     return "".join(f"[{letter}]" if letter in "*?[" else letter for letter in text)
+
+
+def _dangling(path: Path) -> bool:
+    """Whether this is a link to nowhere."""
+    return path.is_symlink() and not path.exists()

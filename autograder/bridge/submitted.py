@@ -12,9 +12,10 @@ import stat
 from pathlib import Path
 from typing import Any
 
+import nbformat
 from nbconvert.exporters import NotebookExporter
 
-from autograder.notebook.submission import PLAIN_ID, Bounds, read_file
+from autograder.notebook.submission import PLAIN_ID, Bounds, parse, read_file
 
 
 class Submitted(NotebookExporter):
@@ -43,10 +44,22 @@ class Submitted(NotebookExporter):
         return f"{endless} lead to no file, and copying them might never end" if endless else ""
 
     def from_filename(self, filename: str, resources: Any = None, **options: Any) -> tuple[Any, Any]:
-        """Read a notebook; raises SubmissionError, which nbgrader names with the student, if it is no regular file."""
-        if getattr(self.parent, "_sanitizing", True):  # as handed in, not as rebuilt
-            read_file(Path(filename), Bounds().notebook)
+        """Read a notebook; raises SubmissionError, which nbgrader names with the student, if we could not read it."""
+        if self._as_handed_in:
+            parse(read_file(Path(filename), Bounds().notebook))
         return super().from_filename(filename, resources=resources, **options)
+
+    def from_file(self, file_stream: Any, resources: Any = None, **options: Any) -> tuple[Any, Any]:
+        """Begin a submitted notebook with an empty page, since Rebuild reads it itself: what nbformat refuses, it may not."""
+        if not self._as_handed_in:
+            return super().from_file(file_stream, resources=resources, **options)
+        page = nbformat.from_dict({"nbformat": 4, "nbformat_minor": 5, "metadata": {}, "cells": []})
+        return super().from_notebook_node(page, resources=resources, **options)
+
+    @property
+    def _as_handed_in(self) -> bool:
+        """Whether nbgrader is reading what was handed in, and not what was rebuilt from it."""
+        return bool(getattr(self.parent, "_sanitizing", True))
 
 
 def _endless(folder: Path) -> list[str]:

@@ -230,10 +230,14 @@ class _Run:
             report = StudentReport(landed.student, "broken", broken=(landed.broken,))
             landed = dataclasses.replace(landed, outcome=self._without(landed.student, report))
         assert landed.outcome is not None
-        if landed.outcome.report.status == "empty":
-            self._settled(landed.outcome.report)
-        else:
-            self.waiting.append(landed)
+        report = landed.outcome.report
+        if report.status == "empty":
+            if not self._place(landed.student).exists():
+                self._settled(report)
+                return
+            report = dataclasses.replace(report, notes=(*report.notes, "what was graded before has been taken away: no marks"))
+            landed = dataclasses.replace(landed, outcome=self._without(landed.student, report))
+        self.waiting.append(landed)
 
     def _without(self, student: str, report: StudentReport) -> Outcome:
         """The outcome of a submission of which nothing can be read: no marks, not even those of an earlier one."""

@@ -148,6 +148,8 @@ class _Reader:
         yield from sorted(names)
 
     def _enter(self, folder: int, name: str, path: str, depth: int) -> None:
+        if path.endswith(".ipynb") and depth == 0:
+            raise SubmissionError("it is a folder, not a notebook")
         if depth >= MAX_DEPTH:
             raise SubmissionError(f"folders lie more than {MAX_DEPTH} deep")
         inner = os.open(name, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC, dir_fd=folder)
@@ -222,7 +224,7 @@ def parse(data: bytes) -> dict[str, Any]:
         raise SubmissionError(f"the notebook is not valid JSON: {how}") from None
     except (ValueError, RecursionError):
         raise SubmissionError("the notebook is not valid JSON: nested too deeply, or a number of absurd length") from None
-    if not isinstance(notebook, dict) or not isinstance(notebook.get("nbformat"), int):
+    if not isinstance(notebook, dict) or type(notebook.get("nbformat")) is not int:
         raise SubmissionError("the file is JSON, but no notebook")
     if notebook["nbformat"] != 4:
         notebook = _converted(notebook)

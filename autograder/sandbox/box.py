@@ -212,7 +212,8 @@ class Sandbox:
         try:
             self.open().close()
         except SandboxError as error:
-            raise IsolationError(f"level {self.level} is not given on this machine: {error}. {ADVICE}") from None
+            why = str(error).rstrip(".")
+            raise IsolationError(f"level {self.level} is not given on this machine: {why}. {ADVICE}") from None
 
     def _why_not(self) -> str:
         self._control.close()
@@ -222,7 +223,8 @@ class Sandbox:
             self._process.kill()
         self._errors.seek(0)
         said = self._errors.read(20_000).decode("utf-8", "replace").strip().splitlines()
-        return f"level {self.level} is not given on this machine: {said[-1] if said else 'the sandbox did not start'}. {ADVICE}"
+        why = said[-1].rstrip(".") if said else "the sandbox did not start"
+        return f"level {self.level} is not given on this machine: {why}. {ADVICE}"
 
     def _clone(self, limits: Limits) -> Session:
         """A process: the one that was ordered ahead, where there is one with these limits, else a new one."""
