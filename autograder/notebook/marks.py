@@ -123,6 +123,8 @@ DIFFERENCES = (
     ("a tag such as skip-execution on a graded cell of the submission", "not run, full points", "ignored: it is run"),
     ("a graded cell that is there twice", "the run for the whole class stops", "the last counts, with a manual look"),
     ("a graded cell that was deleted from a resubmission", "keeps the old mark", "no mark, and a manual look"),
+    ("a resubmission without any notebook", "keeps the old marks", "no marks, and a manual look (by `directrix grade`)"),
+    ("a notebook in UTF-16, or with an odd nbformat_minor", "the submission is dropped", "graded"),
     ("a time zone written +0100 in timestamp.txt", "taken for 100 seconds", "one hour"),
     ("a test cell that was not executed", "full points", "no mark, and a manual look"),
 )
