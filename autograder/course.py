@@ -9,12 +9,15 @@ inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our ow
     c.Sandbox.tests = "calibrated"               # ordinary test cells apart from learners' code where they can be; or insist:
                                                  # "apart", "shared"
     c.Sandbox.withhold = ["answers"]             # modules that test cells may import and learners may not
+    c.Sandbox.engine = {"ps3": "jupyter"}        # notebooks that need a real Jupyter kernel: slower, and its test cells have
+                                                 # marks only where they are exercise cells or run apart; or one for all
 """
 
 from __future__ import annotations
 
 import ast
 import contextlib
+import dataclasses
 import functools
 import importlib
 import logging
@@ -44,8 +47,10 @@ from autograder.notebook.apart import Script
 from autograder.notebook.master import Master
 from autograder.notebook.rebuild import MISSING
 from autograder.notebook.session import Opener, Packages
+from autograder.sandbox import kernel
 
 CONFIG = "nbgrader_config"
+ENGINES = ("ipython", "jupyter")
 # Sections that nbgrader's classes inherit settings from, the nearest first.
 INHERITED = {
     "Autograde": ("Autograde", "BaseConverter"),
@@ -230,6 +235,27 @@ class Course:
         given = self.get("Sandbox", "withhold", ())
         return (given,) if isinstance(given, str) else tuple(map(str, given))
 
+    def engine(self, assignment: str) -> str:
+        """What runs an assignment's notebooks, ``c.Sandbox.engine``: "ipython" (the default) or "jupyter".
+
+        Raises
+        ------
+        CourseError
+            If it is neither.
+        IsolationError
+            If a kernel is wanted and none is installed.
+        """
+        given = self.get("Sandbox", "engine", ENGINES[0])
+        found = given.get(assignment, ENGINES[0]) if isinstance(given, dict) else given
+        if found not in ENGINES:
+            raise CourseError(
+                f'c.Sandbox.engine must be "ipython" or "jupyter", or one of them for each assignment ({{"ps3": "jupyter"}}); '
+                f"got {found!r} for {assignment}"
+            )
+        if found == "jupyter":
+            kernel.available()
+        return str(found)
+
     def scripts(self, of: AssignmentRow, masters: Mapping[str, Master], opener: Opener) -> dict[str, Script]:
         """How the ordinary test cells of each notebook run, tried with the solutions in ``source/`` where that is not known.
 
@@ -238,11 +264,11 @@ class Course:
         CourseError
             If the course insists on what a cell cannot do.
         """
-        files = self.instructor_files(of.name)
+        files, engine = self.instructor_files(of.name), self.engine(of.name)
         found: dict[str, Script] = {}
         for name, master in masters.items():
             names = {cell.exercise for cell in master.graded if cell.exercise}
-            found[name] = apart.prepare(
+            script = apart.prepare(
                 self.path("source", ".", of.name) / f"{name}.ipynb",
                 master,
                 judged={exercise for exercise in names if master.uses_check or self.exercise(exercise) is not None},
@@ -252,6 +278,7 @@ class Course:
                 memory=self.room / "apart" / f"{of.name}.{name}.json",
                 settings=[self.packages, self.withhold, self.timeout],
             )
+            found[name] = dataclasses.replace(script, engine=engine)
         return found
 
     def penalty(self) -> Penalty | None:

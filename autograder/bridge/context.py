@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import datetime
+import functools
 import shutil
 import weakref
 from collections.abc import Mapping
@@ -100,7 +101,7 @@ class Context:
             return hidden_seed(secret, self.student, exercise, submission)
 
         script = self.course.scripts(self.row, {self.notebook: self.master}, open_session)[self.notebook]
-        apart = Apart(script, lambda: open_session.pair(files))
+        apart = Apart(script, lambda: open_session.pair(files), functools.partial(open_session.kernel, files))
         return run(
             built,
             lambda: open_session(files),

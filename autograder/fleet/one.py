@@ -5,6 +5,7 @@ Nothing here writes to the course: the gradebook and ``autograded/`` come after,
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -157,7 +158,10 @@ class _Work:
 
         files = {**self.files, **self.plan.instructor_files}
         script = self.plan.scripts.get(master.notebook)
-        apart = Apart(script, lambda: self.plan.open_session.pair(files)) if script is not None else None
+        opener = self.plan.open_session
+        apart = None
+        if script is not None:
+            apart = Apart(script, lambda: opener.pair(files), functools.partial(opener.kernel, files))
         ran = run(
             built,
             lambda: self.plan.open_session(files),

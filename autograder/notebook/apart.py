@@ -52,12 +52,14 @@ class Script:
     names : what the solution cells bind and the others mention
     apart : grade ids of test cells that run apart
     shared : the other ordinary test cells, with the reason
+    engine : "ipython", or "jupyter": what the notebook shows comes from a real kernel (``autograder.notebook.kernel``)
     """
 
     steps: tuple[Step, ...] = ()
     names: tuple[str, ...] = ()
     apart: frozenset[str] = frozenset()
     shared: Mapping[str, str] = field(default_factory=dict)
+    engine: str = "ipython"
 
 
 class Tests:
@@ -103,10 +105,11 @@ class Tests:
 
 @dataclass(frozen=True)
 class Apart:
-    """What running a notebook's tests apart takes: the script, and what opens (learner's, tests') sessions."""
+    """What running a notebook's tests apart takes: the script, what opens (learner's, tests') sessions, and a real kernel."""
 
     script: Script
     open_pair: Pair
+    kernel: Callable[[Sequence[str | None]], Any] | None = None  # runs the sources of a notebook's cells
 
 
 def prepare(

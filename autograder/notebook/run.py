@@ -27,7 +27,7 @@ from autograder.diagnosis.earlier import Earlier
 from autograder.errors import CallFailed, SandboxError
 from autograder.exercise import Exercise
 from autograder.judge import judge
-from autograder.notebook import limit, safe
+from autograder.notebook import kernel, limit, safe
 from autograder.notebook.apart import Apart, Tests
 from autograder.notebook.marks import CellRun
 from autograder.notebook.master import MasterCell
@@ -136,6 +136,8 @@ def run(
             ran.cells.append(result)
         ran.files, ran.faults, ran.restarts = runner.files(), runner.faults, runner.restarts
         ran.hurried = runner.hurried or bool(runner.spent and runner.late)
+    if apart is not None and apart.kernel is not None and apart.script.engine == "jupyter":
+        _in_a_kernel(rebuilt, ran, apart)
     shown = limit.Shown()
     for cell, graded in learners:  # once more: what was updated since may have grown
         cell["outputs"] = safe.outputs(shown.cut(cell["outputs"], graded=graded))
@@ -143,6 +145,19 @@ def run(
             if output["output_type"] == "execute_result":
                 output["execution_count"] = cell["execution_count"]
     return ran
+
+
+def _in_a_kernel(rebuilt: Rebuilt, ran: Ran, apart: Apart) -> None:
+    """Show what a real kernel shows, and keep the files that it left."""
+    assert apart.kernel is not None
+    try:
+        shown = apart.kernel(kernel.sources(rebuilt, ran.cells))
+    except SandboxError as error:
+        ran.faults.append(f"the notebook could not be run in a kernel: {error}")
+        kernel.without_marks(rebuilt, ran.cells, apart.script.apart)
+        return
+    kernel.take(rebuilt, ran.cells, shown, apart.script.apart)
+    ran.files = shown.files or ran.files
 
 
 def judged_outputs(run: CellRun, master: MasterCell, count: int) -> list[dict[str, Any]]:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal
 
 from autograder.errors import IsolationError
 from autograder.exercise import Exercise
 from autograder.sandbox import Limits, Policy, Sandbox
+from autograder.sandbox.kernel import KernelRun, run_notebook
 
 Packages = tuple[str, ...] | Literal["all"]
 OpenSession = Callable[[Mapping[str, bytes]], contextlib.AbstractContextManager[Any]]
@@ -53,6 +54,12 @@ class Opener:
     def pair(self, files: Mapping[str, bytes]) -> tuple[Any, Any]:
         """Such a session, and one beside it for test cells, which finds all modules."""
         return self.box.pair(files=files, limits=self.bounds, environment=ENVIRONMENT, withhold=self.withhold)
+
+    def kernel(self, files: Mapping[str, bytes], sources: Sequence[str | None]) -> KernelRun:
+        """A whole notebook in a real kernel, in a sandbox of its own with the same files, modules and limits."""
+        return run_notebook(
+            sources, files, policy=self.box.policy, limits=self.bounds, environment=ENVIRONMENT, withhold=self.withhold
+        )
 
     def trusted(self, files: Mapping[str, bytes]) -> Any:
         """A session for the instructor's own code: it finds all modules."""

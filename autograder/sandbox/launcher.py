@@ -13,6 +13,7 @@ import platform
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
@@ -59,19 +60,32 @@ def launch(policy: Policy, level: str, control: int, errors: IO[bytes], which: s
     IsolationError
         Where the machine cannot do it at all.
     """
+    seen = view(policy)
+    return enter(seen, lambda: options(seen, level), seen.command(control, level, policy), control, errors, which)
+
+
+def enter(
+    seen: View, walls: Callable[[], list[str]], command: list[str], descriptor: int, errors: IO[bytes], which: str | None = None
+) -> subprocess.Popen[bytes]:
+    """Start a command inside bubblewrap, with one open file of ours. ``walls`` are bwrap's options for what is ``seen``.
+
+    Raises
+    ------
+    IsolationError
+        Where the machine cannot do it at all.
+    """
     if sys.platform != "linux" or platform.machine() not in ("x86_64", "aarch64"):
         raise IsolationError(
             f"levels A and A- need Linux on x86_64 or aarch64; this is {sys.platform} on {platform.machine()}. "
             "Use a Linux virtual machine, WSL2 or a container"
         )
-    seen = view(policy)
     binary = bubblewrap(which)
     if os.geteuid() == 0:
-        return _as_root(seen, binary, control, errors, policy, level)
-    command = [binary, *options(seen, level), "--", *seen.command(control, level, policy)]
+        return _as_root(seen, binary, walls, command, descriptor, errors)
     return subprocess.Popen(
-        command, env=seen.environment, pass_fds=[control], stdin=subprocess.DEVNULL, stdout=errors, stderr=errors, cwd="/"
-    )
+        [binary, *walls(), "--", *command], env=seen.environment, pass_fds=[descriptor], stdin=subprocess.DEVNULL,
+        stdout=errors, stderr=errors, cwd="/",
+    )  # fmt: skip
 
 
 def options(seen: View, level: str) -> list[str]:
@@ -107,7 +121,23 @@ def options(seen: View, level: str) -> list[str]:
     return [*command, "--remount-ro", "/", "--chdir", "/"]
 
 
-def _as_root(seen: View, binary: str, control: int, errors: IO[bytes], policy: Policy, level: str) -> subprocess.Popen[bytes]:
+def kernel_options(seen: View, scratch: int) -> list[str]:
+    """bwrap's options around a Jupyter kernel: as :func:`options`, with bounded /scratch and /tmp, and terminals.
+
+    The first process inside is bubblewrap's, which collects what others leave behind.
+    """
+    zygote = [option for option in options(seen, "A") if option != "--as-pid-1"]
+    end = zygote.index("--remount-ro")
+    devices = next(at for at, option in enumerate(zygote) if option == "--dev-bind")
+    walls = zygote[:devices] + ["--dev", "/dev", "--remount-ro", "/dev"] + zygote[devices + 3 * len(DEVICES) : end]
+    for place in (SCRATCH, "/tmp"):
+        walls += ["--size", str(scratch), "--perms", "0700", "--tmpfs", place]
+    return [*walls, *zygote[end:]]
+
+
+def _as_root(
+    seen: View, binary: str, walls: Callable[[], list[str]], inside: list[str], control: int, errors: IO[bytes]
+) -> subprocess.Popen[bytes]:
     """Lay the view out where the other uid can read it, then become that uid and start bubblewrap."""
     staged = [source for source, _ in seen.binds]
     for source in staged:
@@ -121,7 +151,7 @@ def _as_root(seen: View, binary: str, control: int, errors: IO[bytes], policy: P
         places |= {str(path): f"{STAGE}/bwrap/{path.name}" for path in companions}
         program = f"{STAGE}/bwrap/{root.name}/{Path(binary).relative_to(root)}"
     seen.binds = [(places[source], place) for source, place in seen.binds]
-    command = [program, *options(seen, level), "--", *seen.command(control, level, policy)]
+    command = [program, *walls(), "--", *inside]
     request = json.dumps({"stage": STAGE, "places": places, "uid": _free_uid(), "command": command})
     start = "import sys; sys.path.insert(0, sys.argv[1]); from autograder.sandbox.rootprep import main; main()"
     package_root = str(Path(__file__).resolve().parents[2])

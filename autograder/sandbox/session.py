@@ -157,7 +157,7 @@ class Session:
         if self.ended is not None:
             return {}
         try:
-            return _checked_files(self._ask(wire.FILES, (), action), limits)
+            return checked_files(self._ask(wire.FILES, (), action), limits)
         except Over:
             return {}
 
@@ -284,7 +284,7 @@ def _checked_failure(answer: Any) -> CallFailed:
     )  # fmt: skip
 
 
-def _checked_files(answer: Any, limits: Limits) -> dict[str, bytes]:
+def checked_files(answer: Any, limits: Limits) -> dict[str, bytes]:
     """Relative paths of plain names only, none of them the folder of another."""
     files: dict[str, bytes] = {}
     for item in answer[: limits.files] if isinstance(answer, tuple) else ():

@@ -48,9 +48,12 @@ class View:
     def command(self, control: int, level: str, policy: Policy) -> list[str]:
         """The zygote's command line."""
         settings = {"control": control, "level": level, "preload": list(policy.preload), "version": sys.version}
-        start = f"import sys; sys.path[:0] = {self.path[:1]!r}; sys.path += {self.path[1:]!r}; "
-        start += "from autograder.sandbox.guest.zygote import main; main(sys.argv[1])"
-        return [self.python, "-s", "-P", "-S", "-c", start, json.dumps(settings)]
+        return self.python_command("from autograder.sandbox.guest.zygote import main; main(sys.argv[1])", json.dumps(settings))
+
+    def python_command(self, code: str, *arguments: str) -> list[str]:
+        """A command line that runs a line of Python with the view's packages."""
+        start = f"import sys; sys.path[:0] = {self.path[:1]!r}; sys.path += {self.path[1:]!r}; {code}"
+        return [self.python, "-s", "-P", "-S", "-c", start, *arguments]
 
 
 def view(policy: Policy) -> View:

@@ -50,11 +50,11 @@ def main(job: int, level: str, limits: dict[str, Any], scratch: str, programme: 
     server = Server(link, limits, shell, f"{scratch}/work")
     exchange, (files, environment, seed, withhold) = server.first()
     try:
-        facts = confine.confine(level, limits, scratch, programme, lambda: _lay_out(files), withhold)
+        facts = confine.confine(level, limits, scratch, programme, lambda: lay_out(files), withhold)
     except BaseException as error:
         link.sendall(wire.frame(wire.DONE, exchange, wire.encode((False, f"{type(error).__name__}: {error}"))))
         os._exit(70)
-    _environment(scratch, environment)
+    set_environment(scratch, environment)
     server.seed = seed
     _reseed(seed, 0)
     link.sendall(
@@ -242,7 +242,7 @@ def _timed(cpu: float, wall: float) -> Iterator[None]:
         signal.setitimer(signal.ITIMER_REAL, 0)
 
 
-def _lay_out(files: tuple[tuple[str, bytes], ...]) -> None:
+def lay_out(files: tuple[tuple[str, bytes], ...]) -> None:
     """Write the notebook's files into the current folder."""
     for name, content in files:
         os.makedirs(os.path.dirname(name) or ".", exist_ok=True)
@@ -250,7 +250,8 @@ def _lay_out(files: tuple[tuple[str, bytes], ...]) -> None:
             file.write(content)
 
 
-def _environment(scratch: str, more: tuple[tuple[str, str], ...]) -> None:
+def set_environment(scratch: str, more: tuple[tuple[str, str], ...]) -> None:
+    """Nothing of the zygote's environment, what every notebook finds, and what this one is given."""
     os.environ.clear()
     os.environ.update(ENVIRONMENT)
     os.environ.update(

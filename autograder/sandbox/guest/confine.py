@@ -58,7 +58,7 @@ def confine(
     lay_out()
     with contextlib.suppress(OSError):
         _write("/proc/self/oom_score_adj", "1000")  # if memory runs short, the grader is not what the kernel ends
-    _limit(limits)
+    limit_resources(limits)
     if level == "A":
         system.drop_capabilities()
     system.no_new_privileges()
@@ -119,7 +119,7 @@ def _capture(scratch: str, size: int) -> None:
         os.close(file)
 
 
-def _limit(limits: dict[str, int | float]) -> None:
+def limit_resources(limits: dict[str, int | float]) -> None:
     """Resource limits, set inside the user namespace: RLIMIT_NPROC counts per namespace and does not bind the host's root."""
     already = WITHOUT_PROC
     with contextlib.suppress(OSError), open("/proc/self/statm", encoding="ascii") as file:

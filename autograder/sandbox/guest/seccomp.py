@@ -55,6 +55,12 @@ XATTR = """
     getxattr:191:8 lgetxattr:192:9 fgetxattr:193:10 setxattr:188:5 lsetxattr:189:6 fsetxattr:190:7 listxattr:194:11
     llistxattr:195:12 flistxattr:196:13 removexattr:197:14 lremovexattr:198:15 fremovexattr:199:16
 """
+# What a Jupyter kernel takes beyond that: programs, sockets of its own network namespace, terminals.
+PROCESSES = """
+    fork:57:- vfork:58:- execve:59:221 arch_prctl:158:- connect:42:203 bind:49:200 listen:50:201 accept:43:202 accept4:288:242
+    setsid:112:157 setpgid:109:154 setrlimit:160:164 chown:92:- fchown:93:55 fchownat:260:54 pidfd_open:434:434
+    sched_setaffinity:203:122 sched_setscheduler:144:119 sched_setparam:142:118
+"""
 CONDITIONAL = "clone:56:220 socketpair:53:199 ioctl:16:29 prctl:157:167 prlimit64:302:261 clone3:435:435"
 
 KILL, ALLOW, ERRNO = 0x80000000, 0x7FFF0000, 0x00050000  # SECCOMP_RET_KILL_PROCESS, _ALLOW, _ERRNO
@@ -72,13 +78,18 @@ CLONE_VM, CLONE_SIGHAND, CLONE_PTRACE, CLONE_VFORK = 0x100, 0x800, 0x2000, 0x400
 AF_UNIX, SOCK_STREAM, SOCK_TYPE_MASK = 1, 1, 0xF
 IOCTLS = (0x5401, 0x5413, 0x541B, 0x5421, 0x5450, 0x5451)  # TCGETS, TIOCGWINSZ, FIONREAD, FIONBIO, FIONCLEX, FIOCLEX
 PRCTLS = (15, 16, 0x53564D41)  # PR_SET_NAME, PR_GET_NAME, PR_SET_VMA
+FAMILIES, AF_NETLINK, NETLINK_ROUTE = (1, 2, 10), 16, 0  # AF_UNIX, AF_INET, AF_INET6
+# Terminals of their own (TCSETS*, TIOCSCTTY, TIOC[GS]PGRP, TIOCSWINSZ, TIOCNOTTY, TIOCGPTPEER, TIOCGPTN, TIOCSPTLCK); never
+# TIOCSTI, which types into a terminal.
+TERMINALS = (0x5402, 0x5403, 0x5404, 0x540E, 0x540F, 0x5410, 0x5414, 0x5422, 0x5441, 0x80045430, 0x40045431)
+PR_SET_PDEATHSIG = 1
 
 Instruction = tuple[int, int, int, int]
 Code = list[Instruction]
 
 
-def programme(machine: str | None = None) -> bytes:
-    """The filter as an array of struct sock_filter.
+def programme(machine: str | None = None, *, processes: bool = False) -> bytes:
+    """The filter as an array of struct sock_filter; with ``processes`` the one for a Jupyter kernel, which may start programs.
 
     Raises
     ------
@@ -92,7 +103,7 @@ def programme(machine: str | None = None) -> bytes:
     code: Code = [(LOAD, 0, 0, ARCHITECTURE), (EQUAL, 1, 0, architecture), (RETURN, 0, 0, KILL), (LOAD, 0, 0, NUMBER)]
     if machine == "x86_64":
         code += [(AT_LEAST, 0, 1, X32), (RETURN, 0, 0, KILL)]
-    code += _decide(_ranges(column))
+    code += _decide(_ranges(column, processes))
     return b"".join(struct.pack("<HBBI", *instruction) for instruction in code)
 
 
@@ -106,11 +117,11 @@ def numbers(table: str, column: int) -> dict[str, int]:
     return found
 
 
-def _ranges(column: int) -> list[tuple[int, Code]]:
+def _ranges(column: int, processes: bool = False) -> list[tuple[int, Code]]:
     """(first number, what to do from there on), sorted; neighbours with the same answer are one range."""
     refuse: Code = [(RETURN, 0, 0, ERRNO | errno.EPERM)]
     answers = dict.fromkeys(range(NEWEST + 1), refuse)
-    for table, answer in ((ALLOWED, ALLOW), (XATTR, ERRNO | errno.ENOTSUP)):
+    for table, answer in ((ALLOWED, ALLOW), (PROCESSES if processes else "", ALLOW), (XATTR, ERRNO | errno.ENOTSUP)):
         for number in numbers(table, column).values():
             answers[number] = [(RETURN, 0, 0, answer)]
     conditions = {
@@ -124,6 +135,11 @@ def _ranges(column: int) -> list[tuple[int, Code]]:
         "prlimit64": _own_limits_read(),
         "clone3": [(RETURN, 0, 0, ERRNO | errno.ENOSYS)],
     }  # fmt: skip
+    if processes:
+        answers[numbers("socket:41:198", column)["socket"]] = _own_sockets()
+        conditions["clone"] = _masked(0, CLONE_NAMESPACES | CLONE_PTRACE, 0)
+        conditions["ioctl"] = _one_of(1, (*IOCTLS, *TERMINALS), errno.ENOTTY)
+        conditions["prctl"] = _one_of(0, (*PRCTLS, PR_SET_PDEATHSIG), errno.EPERM)
     for name, number in numbers(CONDITIONAL, column).items():
         answers[number] = conditions[name]
     ranges: list[tuple[int, Code]] = []
@@ -159,6 +175,13 @@ def _own_limits_read() -> Code:
     for half in (ARGUMENTS, ARGUMENTS + 16, ARGUMENTS + 20):  # pid, then both halves of the pointer to the new limit
         code += [(LOAD, 0, 0, half), (EQUAL, 1, 0, 0), (RETURN, 0, 0, ERRNO | errno.EPERM)]
     return [*code, (RETURN, 0, 0, ALLOW)]
+
+
+def _own_sockets() -> Code:
+    """socket() of the usual families, and of netlink only what lists the network's interfaces (libzmq asks for them)."""
+    families = _one_of(0, FAMILIES, errno.EAFNOSUPPORT)[:-1]
+    refused = (RETURN, 0, 0, ERRNO | errno.EAFNOSUPPORT)
+    return [*families, (EQUAL, 1, 0, AF_NETLINK), refused, *_masked(2, 0xFFFFFFFF, NETLINK_ROUTE)]
 
 
 def _one_of(argument: int, values: Sequence[int], otherwise: int) -> Code:

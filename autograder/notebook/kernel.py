@@ -1,0 +1,63 @@
+"""The engine `jupyter`: what a notebook's cells show comes from a real kernel; marks do not.
+
+A kernel's process writes its own outputs, so whatever the learner's code wants can stand in them. So the notebook runs twice:
+in a kernel, inside a sandbox of its own, for what is shown, and cell by cell as always, for exercise cells (judged from
+outside) and for test cells that run apart. Other test cells get no mark; a person looks at what the kernel showed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+from autograder.notebook.marks import CellRun
+from autograder.notebook.rebuild import Rebuilt
+
+FORGEABLE = (
+    "This test ran in the learner's own kernel, where its outcome can be forged: no mark; please look. "
+    "Exercise cells and tests that run apart are marked with this engine too."
+)
+LOST = "Not run to its end in the kernel: {}"
+SILENT = "Not run in the kernel: an earlier cell ended it."
+
+
+class Shown(Protocol):
+    """What came of a notebook in a kernel: see ``autograder.sandbox.kernel.KernelRun``."""
+
+    cells: Any
+    files: Any
+    ended: Any
+
+
+def sources(rebuilt: Rebuilt, runs: Sequence[CellRun | None]) -> list[str | None]:
+    """What the kernel runs: every code cell that was run, but for the judged ones."""
+    return [
+        cell["source"] if run is not None and run.status != "judged" else None
+        for cell, run in zip(rebuilt.cells, runs, strict=True)
+    ]
+
+
+def take(rebuilt: Rebuilt, runs: list[CellRun | None], shown: Shown, apart: frozenset[str]) -> None:
+    """Put the kernel's outputs into the notebook, and take their marks from the test cells that ran in it."""
+    for number, (cell, mine) in enumerate(zip(rebuilt.cells, rebuilt.masters, strict=True)):
+        run = runs[number]
+        if run is None or run.status == "judged" or (mine is not None and mine.name in apart):
+            continue
+        if number in shown.cells:
+            cell["outputs"] = shown.cells[number].outputs
+        else:
+            cell["outputs"] = [_said(LOST.format(shown.ended.message) if shown.ended is not None else SILENT)]
+    without_marks(rebuilt, runs, apart)
+
+
+def without_marks(rebuilt: Rebuilt, runs: list[CellRun | None], apart: frozenset[str]) -> None:
+    """No test cell that shares the learner's process has a mark."""
+    for number, mine in enumerate(rebuilt.masters):
+        run = runs[number]
+        test = mine is not None and mine.grade and not mine.solution and mine.name not in apart
+        if test and run is not None and run.status != "judged":
+            runs[number] = CellRun("not run", note=FORGEABLE)
+
+
+def _said(text: str) -> dict[str, Any]:
+    return {"output_type": "display_data", "metadata": {}, "data": {"text/plain": text}}
