@@ -28,6 +28,7 @@ app.command()(collecting.collect)
 app.command()(grading.grade)
 app.command()(grading.feedback)
 app.command()(reading.similar)
+app.command()(reading.marks)
 app.command()(machine.doctor)
 
 

@@ -1,4 +1,4 @@
-"""``directrix similar``: reads a course and changes nothing in it."""
+"""``directrix similar`` and ``marks``: they read a course and change nothing in it."""
 
 from __future__ import annotations
 
@@ -35,3 +35,45 @@ def similar(
         console.print(said, highlight=False, markup=False)
     if as_json:
         print(json.dumps(report.to_dict(), allow_nan=False))
+
+
+def marks(
+    assignment: Annotated[str, typer.Argument(help="A graded assignment, for example A1.")],
+    course: CourseOption = Path(),
+    csv: Annotated[
+        Path | None, typer.Option(help="Write the marks to this file, for a spreadsheet.", show_default=False)
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Show the marks of an assignment as they stand in the gradebook, marks by hand included; write all parts as CSV.
+
+    Example: directrix marks A1 --csv marks-A1.csv
+    """
+    from rich.table import Table
+    from rich.text import Text
+
+    from autograder.gradebook import export
+    from autograder.report import plain
+
+    with opened(course).gradebook() as book:
+        sheet = export.sheet(book, assignment)
+    header, *rows = export.table(sheet)
+    console = console_for(as_json)
+    made = Table(header_style="bold")
+    shown = [0, 1, *range(len(header) - 4, len(header))]  # a column for each part is for the file: a screen has no room for it
+    for place in shown:
+        made.add_column(str(header[place]), overflow="fold", justify="left" if place < 2 else "right")
+    for line in rows:
+        cells = (line[place] for place in shown)
+        made.add_row(*(Text(plain(f"{cell:g}" if isinstance(cell, float) else str(cell))) for cell in cells))
+    console.print(made)
+    if csv is not None:
+        csv.write_text(export.as_csv(sheet), "utf-8", newline="")
+        console.print(f"{csv}: {len(rows)} students, {sheet.available:g} points", highlight=False, markup=False)
+    if as_json:
+        names = [str(name) for name in header]
+        print(
+            json.dumps(
+                {"assignment": assignment, "rows": [dict(zip(names, line, strict=True)) for line in rows]}, allow_nan=False
+            )
+        )

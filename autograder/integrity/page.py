@@ -55,6 +55,6 @@ def _cells(places: list[Place]) -> list[tuple[Part, list[Line]]]:
             if place.part == part:
                 for line in range(place.begin, place.end + 1):
                     run_of.setdefault(line, number)
-        lines = part.source.split("\n")
-        made.append((part, [Line(number, plain(text), run_of.get(number, 0)) for number, text in enumerate(lines, 1)]))
+        lines = part.source.expandtabs(4).split("\n")
+        made.append((part, [Line(number, plain(text.rstrip()), run_of.get(number, 0)) for number, text in enumerate(lines, 1)]))
     return made

@@ -32,7 +32,10 @@ _TOKEN = re.compile(
 FUNCTIONS = frozenset(name for module in (builtins, math) for name in dir(module) if callable(getattr(module, name)))
 SMALL = frozenset("0123456789")
 # Keywords that stand in no bracket: one that was never closed ends there, and does not change how the rest is read.
-STATEMENTS = frozenset("assert break class continue def del except finally global import pass raise return try while with".split())
+STATEMENTS = frozenset(
+    {"assert", "break", "class", "continue", "def", "del", "except", "finally", "global",
+     "import", "pass", "raise", "return", "try", "while", "with"}
+)  # fmt: skip
 STRING, NUMBER = "'", "#"
 CHOSEN = "\0"  # begins a name that the learner chose; no source can bring it into another token
 

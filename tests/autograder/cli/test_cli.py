@@ -12,7 +12,7 @@ import pytest
 from autograder import authoring, catalogue
 from autograder.notebook import source
 
-VERBS = ["demo", "new", "release", "lab", "check", "collect", "grade", "feedback", "doctor"]
+VERBS = ["demo", "new", "release", "lab", "check", "collect", "grade", "feedback", "similar", "marks", "doctor"]
 
 
 def directrix(*arguments, cwd):
