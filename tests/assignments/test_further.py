@@ -264,6 +264,7 @@ def test_the_bezier_patch_passes_through_the_sixteen_points(P):
 ANSWERS = {
     "they_meet": True, "a_mountain": True, "rough_work": True, "unit_square": True, "head_to_tail": False,
     "a_speck_of_dust": False, "open_at_p00": False, "open_at_p10": False, "open_at_p01": False, "open_at_p11": False,
+    "open_everywhere": False,
 }  # fmt: skip
 
 
@@ -279,6 +280,12 @@ def test_corners_agree_where_a_coons_patch_can_be_hung(seed):
             else:
                 with pytest.raises(dx.GeometryError):
                     dx.Coons(*curves)
+
+
+@pytest.mark.parametrize("word", [True, False])
+def test_one_word_for_all_curves_earns_nothing(word):
+    verdict = judge(A9["corners_agree"], lambda *arguments: word, seed=b"hidden", figure=False)
+    assert verdict.fraction == 0.0
 
 
 @pytest.mark.parametrize(("gap", "agrees"), [(0.99e-3, True), (1.01e-3, False)])
