@@ -13,6 +13,7 @@ import io
 import json
 import math
 import os
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -22,6 +23,7 @@ from IPython.core import page
 from IPython.core.displayhook import DisplayHook
 from IPython.core.displaypub import DisplayPublisher
 from IPython.core.error import StdinNotImplementedError
+from IPython.core.inputtransformer2 import TransformerManager
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets import Type
 from traitlets.config import Config
@@ -32,6 +34,9 @@ JSON_TYPES = ("application/json", "+json")
 MORE = "\n... the output of this cell is cut here: it shows more than {} kB.\n"
 MANY = "\n... the output of this cell is cut here: it shows more than {} things.\n"
 ERRORS = 300_000  # characters of tracebacks that one cell may show
+# Without one of these no line is IPython's own syntax: a command (%magic, !system, ?help, quoting by , ; or /) at the beginning
+# of a line, an assignment from one, or a question mark at the end. Not every match is such a line; every such line matches.
+SPECIAL = re.compile(r"[ \t\f]*[!?%,;/]|.*=[\s\\]*[!%]|.*\?[\s\\;]*(?:\#.*)?$", re.DOTALL)
 Output = list[Any]
 
 
@@ -198,6 +203,20 @@ class Result(DisplayHook):
         self.shown = None
 
 
+class Plainly(TransformerManager):
+    """Turns IPython's own syntax into Python; a cell that has none of it is not taken apart into tokens to find that out."""
+
+    def __init__(self) -> None:
+        super().__init__()  # type: ignore[no-untyped-call]
+        self.stock = list(self.token_transformers)
+
+    def do_token_transforms(self, lines: list[str]) -> list[str]:
+        """The lines in Python."""
+        if self.token_transformers == self.stock and not any(map(SPECIAL.match, lines)):
+            return lines
+        return super().do_token_transforms(lines)  # type: ignore[no-any-return, no-untyped-call]
+
+
 class Shell(InteractiveShell):
     """An IPython shell without terminal, kernel, history file or threads."""
 
@@ -210,7 +229,9 @@ class Shell(InteractiveShell):
         self.recorder = Recorder()
         self.number = 0
         self.ran_into: type[BaseException] | None = None
+        self.read: tuple[str, str] | None = None  # the source of the cell that is to be run, and what it is in Python
         super().__init__(**options)  # type: ignore[no-untyped-call]
+        self.input_transformer_manager = Plainly()
 
     @classmethod
     def for_notebooks(cls) -> Shell:
@@ -286,8 +307,9 @@ class Shell(InteractiveShell):
     async def _run_in_loop(self, source: str) -> Any:
         """As a kernel does: every cell finds the loop running, so that a task may outlive the cell that made it."""
         try:
-            cell = self.transform_cell(source)  # type: ignore[no-untyped-call]
+            cell = self.transform_cell(source)
             awaits = self.should_run_async(source, transformed_cell=cell)
+            self.read = None if awaits else (source, cell)
         except Exception:  # run_cell meets it too, and shows it
             awaits = False
         if not awaits:
@@ -296,6 +318,13 @@ class Shell(InteractiveShell):
         self.events.trigger("post_execute")
         self.events.trigger("post_run_cell", result)
         return result
+
+    def transform_cell(self, raw_cell: str) -> str:
+        """The cell in Python. What ``_run_in_loop`` has just found out is not worked out again."""
+        read, self.read = self.read, None
+        if read is not None and read[0] == raw_cell:
+            return read[1]
+        return super().transform_cell(raw_cell)  # type: ignore[no-any-return, no-untyped-call]
 
     def shown(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
         """Outputs of the last cell, and updates for displays of earlier cells, as plain tuples."""

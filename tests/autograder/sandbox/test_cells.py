@@ -1,6 +1,58 @@
 """What cells show, and how they end. What a kernel would show is in test_awkward.py."""
 
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from IPython.core.inputtransformer2 import TransformerManager
+
 from autograder.sandbox import Limits
+from autograder.sandbox.guest import shell
+
+PIECES = (
+    *(
+        "a",
+        "f",
+        " ",
+        "\n",
+        "    ",
+        "\t",
+        "\\\n",
+        "=",
+        "==",
+        "!",
+        "%",
+        "%%",
+        "?",
+        "??",
+        ",",
+        ";",
+        "/",
+        "(",
+        ")",
+        "[",
+        "]",
+        "{",
+        "}",
+    ),
+    *(
+        "'",
+        '"',
+        '"""',
+        "#",
+        "!=",
+        "a = ",
+        "a=%ls",
+        "!ls",
+        "if a:\n",
+        "def f():\n",
+        "f'{a!r}'",
+        "\r",
+        "\f",
+        "\u2028",
+        "\xa0",
+        "1",
+    ),
+)
 
 
 def test_streams_and_displays_keep_the_order_in_which_they_came(session):
@@ -90,3 +142,18 @@ def test_the_grader_environment_is_not_there(sandbox, monkeypatch):
 def test_a_limit_of_one_cell_can_be_set_apart(session):
     quick = Limits(cell_cpu=0.2, patience=1)
     assert session.run_cell("while True: pass", limits=quick).note.startswith("this cell was stopped: it may compute for 0.2 s")
+
+
+@pytest.mark.filterwarnings("ignore:`make_tokens_by_line`:UserWarning")  # IPython on a line that ends in a rare separator
+@settings(deadline=None)
+@given(st.lists(st.sampled_from(PIECES), max_size=12).map("".join))
+def test_a_cell_without_ipythons_syntax_is_left_alone_by_ipython(source):
+    """The quick look may send a cell through IPython's transformations for nothing; it may not keep one from them."""
+    assert shell.Plainly().transform_cell(source) == TransformerManager().transform_cell(source)
+
+
+@pytest.mark.parametrize(
+    "source", ["a = 7 % 4", "f'{a!r}'", "a != b", "'why?'.strip()", "# what\nx = '%d' % 5", "x = (1,\n     2)"]
+)
+def test_plain_python_is_seen_to_be_plain(source):
+    assert not any(map(shell.SPECIAL.match, source.splitlines(keepends=True)))
