@@ -145,14 +145,14 @@ def _package_folder(entry: importlib.metadata.EntryPoint) -> Path:
 def around(place: Path) -> Catalogue:
     """What ``check`` knows in a notebook in this folder: the exercises of its course or beside it, then the installed.
 
-    Folders above are looked at only as far as they belong to whoever runs this: exercises are code, and nobody else's is run.
+    Folders are looked at only as far as they belong to whoever runs this: exercises are code, and nobody else's is run.
     """
     own = _own_folder(place.resolve())
     return load(own).before(installed()) if own is not None else installed()
 
 
 def _own_folder(place: Path) -> Path | None:
-    if (place / BESIDE).is_dir():
+    if (place / BESIDE).is_dir() and _ours(place / BESIDE):
         return place / BESIDE
     for folder in (place, *place.parents):
         if not _ours(folder):

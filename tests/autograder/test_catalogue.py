@@ -139,6 +139,16 @@ def test_a_folder_above_that_belongs_to_somebody_else_is_not_run(tmp_path, monke
 
 
 @pytest.mark.usefixtures("_fresh")
+def test_exercises_that_somebody_else_put_beside_a_notebook_are_not_run(tmp_path, monkeypatch):
+    """As in a folder that all may write to, such as /tmp."""
+    beside = tmp_path / catalogue.BESIDE
+    assignment(beside / "20-planted", "planted")
+    assert catalogue.around(tmp_path).get("planted") is not None
+    monkeypatch.setattr(catalogue, "_ours", lambda folder: folder != beside)
+    assert catalogue.around(tmp_path).get("planted") is None
+
+
+@pytest.mark.usefixtures("_fresh")
 def test_the_variable_names_folders_and_comes_before_the_shipped_set(tmp_path, monkeypatch):
     """A folder on a JupyterHub that all can read."""
     assignment(tmp_path / "one" / "20-first", "cylinder")
