@@ -5,6 +5,7 @@ Text, displays, results and errors are kept in the order in which they came (a k
 
 from __future__ import annotations
 
+import ast
 import asyncio
 import base64
 import builtins
@@ -36,7 +37,9 @@ MANY = "\n... the output of this cell is cut here: it shows more than {} things.
 ERRORS = 300_000  # characters of tracebacks that one cell may show
 # Without one of these no line is IPython's own syntax: a command (%magic, !system, ?help, quoting by , ; or /) at the beginning
 # of a line, an assignment from one, or a question mark at the end. Not every match is such a line; every such line matches.
-SPECIAL = re.compile(r"[ \t\f]*[!?%,;/]|.*=[\s\\]*[!%]|.*\?[\s\\;]*(?:\#.*)?$", re.DOTALL)
+SPECIAL = re.compile(r"[ \t\f]*[!?%,;/]|.*=\s*[!%]|.*\?[\s;]*(?:\#.*)?$", re.DOTALL)
+# What Python warns of while it parses: a backslash (in a text that is not raw), and a number with a word close behind it.
+WARNED = re.compile(r"\\|\d\.?\w*(?:and|else|for|if|in|is|not|or)\b")
 Output = list[Any]
 
 
@@ -204,7 +207,7 @@ class Result(DisplayHook):
 
 
 class Plainly(TransformerManager):
-    """Turns IPython's own syntax into Python; a cell that has none of it is not taken apart into tokens to find that out."""
+    """Turns IPython's own syntax into Python; valid Python without any is not taken apart into tokens to find that out."""
 
     def __init__(self) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
@@ -212,9 +215,20 @@ class Plainly(TransformerManager):
 
     def do_token_transforms(self, lines: list[str]) -> list[str]:
         """The lines in Python."""
-        if self.token_transformers == self.stock and not any(map(SPECIAL.match, lines)):
+        if self.token_transformers == self.stock and not any(map(SPECIAL.match, lines)) and _parses("".join(lines)):
             return lines
         return super().do_token_transforms(lines)  # type: ignore[no-any-return, no-untyped-call]
+
+
+def _parses(source: str) -> bool:
+    """Whether this is Python, found out without a warning; what might bring one is not tried."""
+    if WARNED.search(source):
+        return False
+    try:
+        compile(source, "<cell>", "exec", ast.PyCF_ONLY_AST | ast.PyCF_ALLOW_TOP_LEVEL_AWAIT, dont_inherit=True)
+    except (SyntaxError, ValueError, MemoryError, RecursionError):
+        return False
+    return True
 
 
 class Shell(InteractiveShell):
