@@ -134,6 +134,8 @@ class _Run:
     def grade(self, submissions: Mapping[str, Path], workers: int | Client, *, force: bool) -> None:
         """Grade what is new or changed, ``workers`` at a time."""
         self.total = len(submissions)
+        for student in submissions:
+            publish.clear(self._place(student))
         known = set(self.book.students()) if not self.course.create_students else None
         todo: dict[str, Path] = {}
         for student, folder in submissions.items():
@@ -248,7 +250,7 @@ class _Run:
         due = len(self.waiting) >= BATCH or time.monotonic() - self.committed > BATCH_SECONDS
         if not self.waiting or not (full or due):
             return
-        batch, self.waiting = self.waiting, []
+        batch, self.waiting = [self._begun(landed) for landed in self.waiting], []
         graded = [(landed, landed.outcome) for landed in batch if landed.outcome is not None]
         standings = self.book.write(
             self.row, [outcome.record for _, outcome in graded], penalty=self.penalty,
@@ -267,14 +269,24 @@ class _Run:
             self._settled(report)
         self.committed = time.monotonic()
 
+    def _begun(self, landed: Landed) -> Landed:
+        """Note that what lies in ``autograded/`` will not fit the marks until it is replaced; where that fails, no mark."""
+        try:
+            self.journal.begin(landed.student)
+        except OSError as error:
+            publish.clear(self._place(landed.student))
+            fault = f"the journal could not be written: {error.strerror or error}"
+            self._settled(StudentReport(landed.student, "failed", faults=(fault,)))
+            return dataclasses.replace(landed, outcome=None)
+        return landed
+
     def _publish(self, outcome: Outcome, staged: Path | None, report: StudentReport) -> None:
         place = self._place(outcome.student)
         if staged is not None:
-            self.journal.forget(outcome.student)
             publish.publish(staged, place)
             self.journal.write(outcome.student, Entry(outcome.digest, self.version, self.level, report))
         elif place.exists():
-            publish.remove(place)  # an earlier submission's; nbgrader removes it too when the new one fails
+            publish.withdraw(place)  # an earlier submission's; nbgrader removes it too when the new one fails
 
     def _with_standing(self, report: StudentReport, standing: Standing) -> StudentReport:
         return dataclasses.replace(
@@ -298,6 +310,8 @@ class _Run:
         except SubmissionError:
             return None
         entry = self.journal.read(student)
+        if entry is None and self.journal.begun(student):  # a grader was ended before it had replaced what lies there
+            return None
         newer = then is not None and now is not None and now > then
         if newer or (entry is not None and (entry.submission != submitted.digest or entry.report.faults)):
             return None

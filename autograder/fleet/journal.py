@@ -47,15 +47,26 @@ class Journal:
 
     def write(self, student: str, entry: Entry) -> None:
         """Replace the entry of a student, whole or not at all."""
+        self._replace(student, json.dumps(asdict(entry), allow_nan=False))
+
+    def begin(self, student: str) -> None:
+        """Replace the entry of a student by a note that new marks are about to be committed."""
+        self._replace(student, json.dumps({"begun": True}))
+
+    def begun(self, student: str) -> bool:
+        """Whether there is such a note in the place of an entry; what cannot be read counts as one."""
+        return self._path(student).exists() and self.read(student) is None
+
+    def _replace(self, student: str, text: str) -> None:
         self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         path = self._path(student)
         new = path.with_name(f".{secrets.token_hex(8)}")
-        new.write_text(json.dumps(asdict(entry), allow_nan=False), "utf-8")
-        os.replace(new, path)
-
-    def forget(self, student: str) -> None:
-        """Remove the entry of a student."""
-        self._path(student).unlink(missing_ok=True)
+        try:
+            new.write_text(text, "utf-8")
+            os.replace(new, path)
+        except OSError:
+            new.unlink(missing_ok=True)
+            raise
 
     def _path(self, student: str) -> Path:
         name = quote(student, safe="")  # nine bytes for a letter of three: long ids in other scripts outgrow a file's name

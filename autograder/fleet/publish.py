@@ -21,12 +21,16 @@ def stage(place: Path, files: Mapping[str, bytes], *, mode: int, groupshared: bo
     clear(place)
     folder = place.with_name(f".{place.name}{MARK}{secrets.token_hex(8)}")
     folder.mkdir(parents=True)
-    for name, data in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("xb") as file:
-            file.write(data)
-        path.chmod(mode)
+    try:
+        for name, data in files.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("xb") as file:
+                file.write(data)
+            path.chmod(mode)
+    except OSError:  # a full disk has no room for half a submission
+        remove(folder)
+        raise
     if groupshared:
         for directory in [folder.parent, folder, *(path for path in folder.rglob("*") if path.is_dir())]:
             with contextlib.suppress(PermissionError):
@@ -43,6 +47,13 @@ def publish(staged: Path, place: Path) -> None:
         remove(old)
     else:
         os.rename(staged, place)
+
+
+def withdraw(place: Path) -> None:
+    """Remove what is in a place: it goes at once, however long that takes."""
+    old = place.with_name(f".{place.name}{MARK}{secrets.token_hex(8)}")
+    os.rename(place, old)
+    remove(old)
 
 
 def remove(folder: Path) -> None:

@@ -94,10 +94,11 @@ def opened(
 def _sandbox(policy: Policy, level: str | None) -> Sandbox:
     if level is not None:
         return Sandbox(policy=policy, level=level)
-    try:
-        return Sandbox(policy=policy, level="A")
-    except IsolationError as best:
+    best: IsolationError | None = None
+    for possible in ("A", "A", "A-"):  # twice: a start that was disturbed from outside must not lead to a weaker level
         try:
-            return Sandbox(policy=policy, level="A-")
-        except IsolationError:
-            raise best from None
+            return Sandbox(policy=policy, level=possible)
+        except IsolationError as error:
+            best = best or error
+    assert best is not None
+    raise best

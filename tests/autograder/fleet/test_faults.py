@@ -181,3 +181,100 @@ def test_hidden_data_differ_for_every_submission_and_marks_do_not(surfaces):
     for path in surfaces.folder.rglob("*"):
         if path.is_file() and path.name != "secret":
             assert secret.encode() not in path.read_bytes(), path
+
+
+@pytest.mark.parametrize("moment", ["before the files", "before the journal"])
+def test_a_grader_killed_after_the_marks_of_a_second_submission_goes_on_from_there(big_class, monkeypatch, moment):
+    """The old files lie beside the new marks then; the next run must not take them for what was graded."""
+    from autograder.fleet import journal, publish
+
+    fleet.grade(big_class.course(), "ps1", students=["s1"])
+    big_class.hand_in("s1", {"one": {**RIGHT, "square": "def square(x): return 4"}, "two": ADD})
+
+    def killed(*args, **options):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(*((publish, "publish", killed) if moment == "before the files" else (journal.Journal, "write", killed)))
+        with pytest.raises(KeyboardInterrupt):
+            fleet.grade(big_class.course(), "ps1", students=["s1"])
+    graded = fleet.grade(big_class.course(), "ps1", students=["s1"]).student("s1")
+    assert (graded.status, points_of(graded)["test_square"]) == ("graded", 0.0)
+    assert b"return 4" in (big_class.folder / "autograded/s1/ps1/one.ipynb").read_bytes()
+    assert list(big_class.folder.rglob("*.directrix-*")) == []
+    assert fleet.grade(big_class.course(), "ps1", students=["s1"]).student("s1").status == "unchanged"
+
+
+def points_of(student):
+    return {cell.name: cell.points for cell in student.cells}
+
+
+def test_a_sandbox_that_is_killed_is_started_again_and_the_class_is_graded(big_class):
+    """The zygote is killed after the first submission: nothing is lost, and nothing is the learners' fault."""
+    for number in range(8):
+        slow = "import time\ntime.sleep(0.2)\ndef square(x): return x * x"
+        big_class.hand_in(f"s{number}", {"one": {**RIGHT, "square": slow}, "two": ADD})
+    killed = []
+
+    def kill(done, total, student):
+        for task in os.listdir("/proc/self/task"):
+            with open(f"/proc/self/task/{task}/children") as file:
+                for pid in file.read().split():
+                    with open(f"/proc/{pid}/comm") as comm:
+                        if comm.read().strip() == "bwrap" and not killed:
+                            os.kill(int(pid), signal.SIGKILL)
+                            killed.append(pid)
+
+    module = importlib.import_module("autograder.fleet.grade")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "BATCH", 1)
+        graded = fleet.grade(big_class.course(), "ps1", workers=2, progress=kill)
+    assert killed
+    assert graded.failures == ()
+    assert {student.score for student in graded.students} == {6.0}
+
+
+def test_a_start_that_was_disturbed_leads_to_no_weaker_level(monkeypatch):
+    from autograder.errors import IsolationError
+    from autograder.notebook import session
+
+    tried = []
+
+    class Fake:
+        def __init__(self, policy, level):
+            tried.append(level)
+            if len(tried) == 1:
+                raise IsolationError("killed from outside")
+
+    monkeypatch.setattr(session, "Sandbox", Fake)
+    session._sandbox(None, None)
+    assert tried == ["A", "A"]
+
+
+def test_the_command_names_what_the_grader_could_not_judge_and_ends_with_1(big_class, monkeypatch, capsys):
+    from autograder import cli
+
+    module = importlib.import_module("autograder.fleet.task")
+    real = module.grade_one
+
+    def fails(plan, student, submitted):
+        if student == "s1":
+            raise SandboxError("no process for a notebook")
+        return real(plan, student, submitted)
+
+    command = ["grade", "ps1", "--course", str(big_class.folder)]
+    monkeypatch.setattr(module, "grade_one", fails)
+    assert ended(cli.main, command) == 1
+    assert capsys.readouterr().err.splitlines()[-1] == "directrix: s1: no process for a notebook"
+    assert big_class.sql("select count(*) from submitted_assignment where student_id = 's1'") == [(0,)]
+    monkeypatch.undo()
+    assert ended(cli.main, [*command, "--resume"]) == 0
+    assert big_class.sql("select count(*) from submitted_assignment where student_id = 's1'") == [(1,)]
+
+
+def ended(main, arguments):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "argv", ["directrix", *arguments])
+        with pytest.raises(SystemExit) as end:
+            main()
+    return end.value.code or 0
