@@ -405,6 +405,7 @@ def main(arguments=None):
     parser.add_argument("--backend", nargs="+", choices=choices, default=choices)
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args(arguments)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that servers and mounts are taken down
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     failed = 0
     for number, name in enumerate(options.backend):
