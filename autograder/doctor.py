@@ -1,7 +1,13 @@
 """Which isolation this machine gives, found out by attacking it.
 
 Every attack of ``sandbox/attacks.py`` is run inside the sandbox, and once outside it: an attack that fails without the sandbox
-too proves nothing here and is not counted. The level is the best one whose sandbox starts and stops all that count.
+too proves nothing here and is not counted. The level is the best one whose sandbox starts and stops all that count:
+
+    A, A-    notebooks are graded; A has namespaces of its own for each
+    B        Landlock and the system call filter can be had, namespaces cannot: nothing is graded here as it stands
+    C, D     macOS; nothing at all
+
+Below A- nothing was attacked, since nothing would be run: the report says what is missing, and where to grade instead.
 """
 
 from __future__ import annotations
@@ -45,6 +51,25 @@ finally:
     print(path)
 """
 
+NAMESPACES = "from autograder.sandbox import system; system.unshare(0x10000000 | 0x20000)"  # CLONE_NEWUSER | CLONE_NEWNS
+FILTER = """
+from autograder.sandbox import system
+from autograder.sandbox.guest import seccomp
+system.no_new_privileges()
+system.load_filter(seccomp.programme())
+"""
+SETTINGS = {  # of the kernel: the value that forbids, and what to do about it
+    "/proc/sys/kernel/apparmor_restrict_unprivileged_userns": (
+        "1", "AppArmor keeps user namespaces to programs it knows (Ubuntu 24.04 and newer): `apt install bubblewrap`, whose "
+        "path it knows, or `sysctl kernel.apparmor_restrict_unprivileged_userns=0`.",
+    ),
+    "/proc/sys/kernel/unprivileged_userns_clone": (
+        "0", "User namespaces are off: `sysctl kernel.unprivileged_userns_clone=1`.",
+    ),
+    "/proc/sys/user/max_user_namespaces": ("0", "User namespaces are off: `sysctl user.max_user_namespaces=10000`."),
+}  # fmt: skip
+CONTAINERS = ("/.dockerenv", "/run/.containerenv")
+
 Outcome = Literal["stopped", "got through", "proves nothing"]
 
 
@@ -79,7 +104,10 @@ def report() -> list[Probe]:
 
 
 def examine(levels: tuple[str, ...] = ("A", "A-")) -> Report:
-    """Run the attacks at each level in turn until one is given in full."""
+    """Run the attacks at each level in turn until one is given in full; without one, say what is missing."""
+    if sys.platform != "linux":
+        level = "C" if sys.platform == "darwin" else "D"
+        return Report(level, LEVELS[level], (), machine(), tuple(_advice(level)))
     advice: list[str] = []
     probes: tuple[Probe, ...] = ()
     with _decoys() as facts:
@@ -94,7 +122,9 @@ def examine(levels: tuple[str, ...] = ("A", "A-")) -> Report:
             if not through:
                 return Report(level, LEVELS[level], probes, machine(), tuple(advice + _advice(level)))
             advice.append(f"{level}: not stopped: {', '.join(through)}")
-    return Report("D", LEVELS["D"], probes, machine(), tuple(advice + _advice("D")))
+    found = machine()
+    level = "B" if found["landlock"] and found["system call filter"] == "yes" else "D"
+    return Report(level, LEVELS[level], probes, found, tuple(advice + _advice(level)))
 
 
 def attack(level: str, facts: dict[str, Any], bare: dict[str, str]) -> tuple[Probe, ...]:
@@ -122,12 +152,27 @@ def machine() -> dict[str, Any]:
         version = subprocess.run([program, "--version"], capture_output=True, text=True, check=False).stdout.strip()
     except (IsolationError, OSError) as error:
         program, version = "", str(error)
+    uid = os.geteuid() if hasattr(os, "geteuid") else None
     return {
         "system": platform.platform(),
-        "user": "root, who drops to another uid" if os.geteuid() == 0 else f"uid {os.geteuid()}",
+        "user": "root, who drops to another uid" if uid == 0 else f"uid {uid}",
         "bubblewrap": f"{program} ({version})" if program else version,
         "landlock": system.landlock_abi() if sys.platform == "linux" else 0,
+        "user namespaces": _tried(NAMESPACES),
+        "system call filter": _tried(FILTER),
     }
+
+
+def _tried(script: str) -> str:
+    """ "yes" if a process of its own gets through this, else why not."""
+    if sys.platform != "linux":
+        return "only on Linux"
+    paths = os.pathsep.join(path for path in sys.path if path)
+    done = subprocess.run(
+        [sys.executable, "-c", script], env=os.environ | {"PYTHONPATH": paths}, capture_output=True, text=True, check=False
+    )
+    said = done.stderr.strip().splitlines()
+    return "yes" if done.returncode == 0 else f"no ({said[-1] if said else f'exit code {done.returncode}'})"
 
 
 def _probe(box: Sandbox, name: str, facts: dict[str, Any], bare: str) -> Probe:
@@ -202,18 +247,44 @@ def _decoys() -> Iterator[dict[str, Any]]:
 
 
 def _advice(level: str) -> list[str]:
-    """What to do to reach level A."""
+    """What is missing for level A here, and what to do."""
     if level == "A":
         return []
+    if sys.platform == "darwin":
+        return [
+            "macOS has no namespaces, no Landlock and no system call filter: nothing is graded on it. Write and check here; "
+            "grade in a Linux virtual machine (Lima, UTM, Multipass) that sees the course folder, or on a server.",
+            "A container of a desktop program is a Linux virtual machine too; give it the options that containers need:",
+            IN_CONTAINERS,
+        ]
     if sys.platform != "linux":
-        return ["Grade on Linux: a virtual machine, WSL2, or a container started with the options the handbook names."]
-    return [
-        "Level A needs bubblewrap, user namespaces and Landlock (Linux 5.13 or newer).",
-        "Ubuntu 24.04 and newer: `apt install bubblewrap` (only the system's program may make namespaces there), or "
-        "`sysctl kernel.apparmor_restrict_unprivileged_userns=0`.",
-        "In a container: allow user namespaces and mounts (Docker: --security-opt seccomp=unconfined "
-        "--security-opt apparmor=unconfined --security-opt systempaths=unconfined), or grade outside of it.",
-    ]
+        return [
+            "Windows has nothing that could hold a notebook here: nothing is graded on it. Write and check here; grade in "
+            "WSL2: `wsl --install`, and in its Ubuntu `apt install bubblewrap python3-venv`, then `pip install directrix`.",
+            "Keep the course folder inside WSL (`~/course`, not `/mnt/c`): permissions hold only there.",
+        ]
+    found = ["Level A needs bubblewrap, user namespaces and Landlock (Linux 5.13 or newer)."]
+    for path, (forbids, advice) in SETTINGS.items():
+        if _content(path) == forbids:
+            found.append(advice)
+    if any(os.path.exists(path) for path in CONTAINERS) or "container" in os.environ:
+        found.append(IN_CONTAINERS)
+    if level == "B":
+        found.append("What this machine has, Landlock and a system call filter, is not enough: nothing is graded at level B.")
+    return found
+
+
+IN_CONTAINERS = (
+    "In a container, allow user namespaces and mounts (Docker, Podman: --security-opt seccomp=unconfined "
+    "--security-opt apparmor=unconfined --security-opt systempaths=unconfined) and be an ordinary user in it, or grade outside."
+)
+
+
+def _content(path: str) -> str:
+    try:
+        return Path(path).read_text("ascii").strip()
+    except OSError:
+        return ""
 
 
 def main() -> None:

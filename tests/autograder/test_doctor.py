@@ -37,14 +37,59 @@ def test_one_attack_that_got_through_costs_the_level(attacked):
     found = attacked(A=("tcp",), A_minus=())
     assert found.level == "A-"
     assert found.advice[0] == "A: not stopped: tcp"
-    assert any("apt install bubblewrap" in line for line in found.advice)
+    assert any("needs bubblewrap" in line for line in found.advice)
 
 
 def test_a_level_that_does_not_start_is_not_given_and_says_why(attacked):
     found = attacked(A=IsolationError("no user namespaces"), A_minus=IsolationError("no bubblewrap"))
-    assert found.level == "D"
+    assert found.level == "B"  # this machine has Landlock and a system call filter all the same
     assert found.advice[:2] == ("A: no user namespaces", "A-: no bubblewrap")
-    assert "no isolation" in found.meaning
+    assert "nothing is graded at level B" in found.advice[-1]
+
+
+def test_without_landlock_or_a_filter_there_is_no_level(attacked, monkeypatch):
+    for what, value in (("landlock", 0), ("system call filter", "no (OSError)")):
+        known = doctor.machine() | {what: value}
+        monkeypatch.setattr(doctor, "machine", lambda known=known: known)
+        found = attacked(A=IsolationError("no"), A_minus=IsolationError("no"))
+        assert (found.level, found.meaning) == ("D", "no isolation")
+        monkeypatch.undo()
+
+
+@pytest.mark.parametrize(
+    ("system", "level", "said"), [("darwin", "C", "Linux virtual machine"), ("win32", "D", "WSL2: `wsl --install`")]
+)
+def test_other_systems_are_told_where_to_grade_and_nothing_is_attacked(monkeypatch, system, level, said):
+    monkeypatch.setattr(doctor.sys, "platform", system)
+    monkeypatch.setattr(doctor, "without_sandbox", None)
+    if system == "win32":
+        monkeypatch.delattr(doctor.os, "geteuid")
+    found = doctor.examine()
+    assert (found.level, found.probes) == (level, ())
+    assert said in found.advice[0]
+    assert json.loads(json.dumps(found.to_dict()))["machine"]["user namespaces"] == "only on Linux"
+
+
+def test_the_advice_is_of_what_forbids_namespaces_here(monkeypatch, tmp_path):
+    """A setting that allows them is not complained of."""
+    for number, (path, (forbids, advice)) in enumerate(doctor.SETTINGS.items()):
+        place = tmp_path / str(number)
+        monkeypatch.setattr(doctor, "SETTINGS", {str(place): (forbids, advice)})
+        place.write_text(f"{1 - int(forbids)}\n")
+        assert advice not in doctor._advice("D"), path
+        place.write_text(f"{forbids}\n")
+        assert advice in doctor._advice("D"), path
+        monkeypatch.undo()
+    monkeypatch.setattr(doctor, "CONTAINERS", (str(tmp_path),))
+    assert doctor.IN_CONTAINERS in doctor._advice("D")
+    monkeypatch.setattr(doctor, "CONTAINERS", ())
+    monkeypatch.delenv("container", raising=False)
+    assert doctor.IN_CONTAINERS not in doctor._advice("D")
+
+
+def test_what_is_tried_can_fail_and_says_why():
+    assert doctor._tried(doctor.FILTER) == "yes"
+    assert doctor._tried("raise OSError(1, 'Operation not permitted')").startswith("no (PermissionError")
 
 
 def test_an_attack_that_fails_without_the_sandbox_proves_nothing():
