@@ -19,6 +19,7 @@ import ast
 import contextlib
 import dataclasses
 import functools
+import hashlib
 import importlib
 import logging
 import os
@@ -265,6 +266,7 @@ class Course:
             If the course insists on what a cell cannot do.
         """
         files, engine = self.instructor_files(of.name), self.engine(of.name)
+        beside = {path: hashlib.sha256(data).hexdigest() for path, data in sorted(files.items())}
         found: dict[str, Script] = {}
         for name, master in masters.items():
             names = {cell.exercise for cell in master.graded if cell.exercise}
@@ -276,7 +278,7 @@ class Course:
                 open_pair=lambda: opener.pair(files),
                 mode=self.tests,
                 memory=self.room / "apart" / f"{of.name}.{name}.json",
-                settings=[self.packages, self.withhold, self.timeout],
+                settings=[self.packages, self.withhold, self.timeout, beside, sys.version],
             )
             found[name] = dataclasses.replace(script, engine=engine)
         return found

@@ -5,8 +5,9 @@ that one runs the instructor's source notebook without its solution cells, and w
 builtins, imports or names of other cells) is the learner's, across a socket (``autograder.sandbox.guest.peer``). The learner's
 process never sees the test.
 
-Not every cell can: one that looks at a learner's class, or at a list changed in place, needs the objects themselves. Whether a
-cell can is tried, before any submission is read, with the solution in ``source/``: it must get the same mark both ways.
+Not every cell can: one that looks at a learner's class, or reads the text of a function, needs the objects themselves. Whether
+a cell can is tried, before any submission is read, with the solution in ``source/``: it must get the same mark both ways. Where
+trying would not tell, its text does (``autograder.notebook.reach``).
 """
 
 from __future__ import annotations
@@ -25,11 +26,12 @@ from typing import Any
 from autograder.errors import CourseError
 from autograder.notebook.marks import scored
 from autograder.notebook.master import Master, MasterCell, checksum
+from autograder.notebook.reach import reaching
 
 MODES = ("calibrated", "apart", "shared")
 Pair = Callable[[], tuple[Any, Any]]
 ROUNDS = 6  # of trying; what still changes its mark then is shared
-VERSION = 1  # of what is remembered
+VERSION = 2  # of what is remembered and of what can cross: raise it when either changes
 
 
 @dataclass(frozen=True)
@@ -214,22 +216,40 @@ class _Trial:
             elif wanted[name][0] != float(cell.points or 0.0):
                 shared[name] = f"the solution in source/ does not pass it: {wanted[name][1]}"
         names = _names(self.steps)
+        reaching = self._reaching()
+        shared = reaching | shared
         for _ in range(ROUNDS):
             script = Script(self.steps, names, frozenset(self.ordinary) - shared.keys(), dict(shared))
-            if not script.apart:
-                break
             got = self._apart(script)
-            worse = {name: got[name][1] for name in got if got[name][0] != wanted[name][0]}
+            worse = {
+                name: why
+                for name, (points, why) in got.items()
+                if (_less(points, wanted[name][0]) if name in shared else points != wanted[name][0])
+            }
             if not worse:
                 return script
-            broken = [name for name in worse if name in shared]
-            if broken:
+            lost = next((name for name in worse if name in shared), None)
+            shared |= {name: why for name, why in worse.items() if name not in shared}
+            if lost is None:
+                continue
+            if reaching.pop(lost, None):  # it needs a withheld module, say: apart after all, if it can be
+                del shared[lost]
+                continue
+            before = [step.name for step in self.steps[: [step.name for step in self.steps].index(lost)] if step.test]
+            if any(name not in shared for name in before):  # one of these may bind what it needs
+                shared |= {name: f"{lost}, which shares, may need what it leaves" for name in before if name not in shared}
+            elif _less(self._apart(script)[lost][0], wanted[lost][0]):  # and not by chance
                 raise CourseError(
-                    f"the test cell {broken[0]} has to share the learner's process ({shared[broken[0]]}), where the solution "
-                    f"in source/ fails it: {worse[broken[0]]}. Does it need a withheld module?"
+                    f"the test cell {lost} has to share the learner's process ({shared[lost]}), where the solution "
+                    f"in source/ fails it: {worse[lost]}. Does it need a withheld module?"
                 )
-            shared |= worse
         return Script(self.steps, names, frozenset(), {name: shared.get(name, "unsteady") for name in self.ordinary})
+
+    def _reaching(self) -> dict[str, str]:
+        """Test cells of which trying would not show that they need the learner's process."""
+        tests = {step.name: _parsed(step.source) for step in self.steps if step.test}
+        others = [_parsed(step.source) for step in self.steps if not step.test and not step.solution]
+        return reaching(tests, others, [_parsed(step.source) for step in self.steps if step.solution])
 
     def _together(self) -> dict[str, tuple[float | None, str]]:
         with self.open_session() as session:
@@ -262,6 +282,10 @@ class _Trial:
             said = f"{errors[-1]['ename']}: {errors[-1]['evalue']}" if errors else result.note or result.status
             return 0.0, " ".join(said.split())[:200]
         return scored(result.outputs, points).points, "it prints to stderr, or returns another number of points"
+
+
+def _less(points: float | None, than: float | None) -> bool:
+    return (points or 0.0) < (than or 0.0)
 
 
 def _names(steps: Sequence[Step]) -> tuple[str, ...]:

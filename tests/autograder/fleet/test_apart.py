@@ -10,6 +10,7 @@ import pytest
 
 from autograder import fleet
 from autograder.errors import CourseError
+from autograder.notebook import apart
 
 spec = importlib.util.spec_from_file_location("courses_for_apart", Path(__file__).parents[1] / "conftest.py")
 courses = importlib.util.module_from_spec(spec)
@@ -27,7 +28,7 @@ TESTS = {
     "test_sort": "data = [3, 1, 2]\nsort_it(data)\nassert data == [1, 2, 3]",
     "test_stack": "s = Stack()\ns.push(3)\nassert s.top == 3",
 }
-SHARED = {"test_sort", "test_stack"}
+SHARED = {"test_stack"}
 POINTS = 2
 
 
@@ -136,7 +137,7 @@ def both_ways(template, tmp_path_factory):
 def test_tampering_wins_nothing_apart_and_would_win_in_a_shared_process(both_ways, name):
     number = list(CHEATS).index(name)
     apart, shared = (points(both_ways[mode], f"s{number}") for mode in ("calibrated", "shared"))
-    mean = [test for test in TESTS if test not in SHARED]
+    mean = [test for test in TESTS if "mean" in TESTS[test]]
     assert {test: apart[test] for test in mean} == dict.fromkeys(mean, 0.0)
     assert {test for test in mean if shared[test]} >= CHEATS[name][1]
 
@@ -168,6 +169,18 @@ def test_a_course_may_insist(course):
     course.configure('c.Sandbox.tests = "elsewhere"\n')
     with pytest.raises(CourseError, match="must be one of calibrated, apart, shared; got 'elsewhere'"):
         fleet.grade(course.course(), "ps1", force=True)
+
+
+def test_what_was_found_is_tried_again_when_a_file_beside_the_notebook_has_changed(course, monkeypatch):
+    """A test may read it: with other numbers in it, the same text may need something else."""
+    seen = []
+    monkeypatch.setattr(apart, "prepare", lambda *_, settings, **__: seen.append(repr(settings)) or apart.Script())
+    for text in ("1", "1", "2"):
+        (course.folder / "source" / "ps1" / "numbers.csv").write_text(text)
+        with course.course().gradebook() as book:
+            row = book.assignment("ps1")
+            course.course().scripts(row, course.course().masters(row), None)
+    assert seen[0] == seen[1] != seen[2]
 
 
 def test_without_a_source_notebook_nothing_is_apart_and_the_report_says_why(course):
