@@ -103,7 +103,7 @@ def table(graded: GradeReport) -> Group:
 
 
 def _students(graded: GradeReport) -> Table:
-    title = f"{graded.assignment}: {len(graded.students)} submissions"
+    title = Text(plain(f"{graded.assignment}: {len(graded.students)} submissions"))
     made = Table(title=title, title_justify="left", header_style="bold", expand=True)
     longest = max((len(student.student) for student in graded.students), default=0)
     made.add_column("student", overflow="fold", min_width=min(longest, WIDEST_NAME))
@@ -152,7 +152,7 @@ def _remark(student: StudentReport) -> Text:
         said.append(f"{student.looks} to look at")
     slips = list(dict.fromkeys(cell.mistake for cell in student.cells if cell.mistake))
     said += slips[:MOST_MISTAKES] + (["..."] if len(slips) > MOST_MISTAKES else [])
-    return Text(", ".join(said), style=style)
+    return Text(plain(", ".join(said)), style=style)
 
 
 def _class(found: tuple[Part, ...]) -> Table:
@@ -164,7 +164,8 @@ def _class(found: tuple[Part, ...]) -> Table:
     for part in sorted(found, key=lambda part: part.mean if part.mean is not None else 2.0):
         mean = "" if part.mean is None else f"{100 * part.mean:.0f} %"
         named = ", ".join(f"{name} ({count})" for name, count in part.mistakes)
-        made.add_row(part.title, mean, str(part.full), str(part.some), str(part.none), str(part.waiting or ""), named)
+        counts = (str(part.full), str(part.some), str(part.none), str(part.waiting or ""))
+        made.add_row(Text(plain(part.title)), mean, *counts, Text(plain(named)))
     return made
 
 

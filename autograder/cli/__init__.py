@@ -37,7 +37,8 @@ def main() -> None:
     try:
         app()
     except DirectrixError as error:
-        print(f"directrix: {error}", file=sys.stderr)
+        said = "".join(letter if letter.isprintable() or letter == "\n" else "\ufffd" for letter in str(error))
+        print(f"directrix: {said}", file=sys.stderr)  # a name in it came from a student: it must not steer the terminal
         sys.exit(1)
     except KeyboardInterrupt:
         print("directrix: stopped; what was finished is kept", file=sys.stderr)

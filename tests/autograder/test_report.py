@@ -75,3 +75,15 @@ def test_an_empty_class_has_a_table_too():
     Console(file=out, width=80).print(report.table(GradeReport("c", "A1", "A")))
     assert "0 submissions" in out.getvalue()
     assert report.summary(GradeReport("c", "A1", "A"))["mean"] is None
+
+
+def test_titles_names_and_mistakes_are_no_markup():
+    """A closing tag that was never opened would stop the report, a colour would spread, an escape would reach the terminal."""
+    titles = {"cylinder": "On [/] and [red]red[/red] \x1b[2J", "cone": "The cone [/b]"}
+    rows = (student("[/x] ada\x1b[2J", cell("cylinder", 1.0, mistake="slip[/]\x1b[2J"), cell("cone", 2.0)),)
+    graded = GradeReport("geo", "A1 [/i]\x1b[2J", "A", rows, seconds=2.0, available=8.0, titles=titles)
+    out = io.StringIO()
+    Console(file=out, width=200, color_system=None, force_terminal=True).print(report.table(graded))
+    assert "\x1b" not in out.getvalue()
+    for said in ("On [/] and [red]red[/red]", "The cone [/b]", "[/x] ada", "slip[/]", "A1 [/i]"):
+        assert said in out.getvalue()
