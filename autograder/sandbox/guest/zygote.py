@@ -166,6 +166,11 @@ def _figures(go: Any, plot: Any) -> Iterator[Callable[[], Any]]:
         scene = {"aspectmode": "data", "camera": {"eye": {"x": 1}}, **{f"{letter}axis": axis for letter in "xyz"}}
         yield lambda: go.Figure([*traces, marked])
         yield lambda: go.Figure(traces).update_layout(**about, scene=scene, margin={"l": 0}, showlegend=False)
+        yield (
+            lambda: (
+                go.Figure(marked, {"template": "none"}).add_annotation(text="a", x=0, y=0).update_yaxes(visible=False)
+            )
+        )
     if plot is not None:
         yield lambda: plot.view(saddle)
         yield lambda: plot.view(saddle, square=True, mark=(0.5, 0.5), normals=True, title="a saddle")

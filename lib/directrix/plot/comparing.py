@@ -218,16 +218,21 @@ def edges_and_lines(count: int, lines: int) -> tuple[list[int], list[int]]:
 def _lines(points: Array, u: Array, w: Array, size: float, where: str, called: tuple[str, ...]) -> list[dict[str, Any]]:
     """Parameter lines inside, the edges thicker, and the letters that say which way u and w run."""
     rows, columns = edges_and_lines(len(u), LINES), edges_and_lines(len(w), LINES)
+    normals = grid_normals(points)
     drawn = [
-        traces.parameter_lines(points, size, along="u", at=columns[1], width=1.5, scene=where),
-        traces.parameter_lines(points, size, along="w", at=rows[1], width=1.5, scene=where),
-        traces.parameter_lines(points, size, along="u", at=columns[0], width=3.5, scene=where),
-        traces.parameter_lines(points, size, along="w", at=rows[0], width=3.5, scene=where),
+        traces.parameter_lines(points, size, along="u", at=columns[1], width=1.5, normals=normals, scene=where),
+        traces.parameter_lines(points, size, along="w", at=rows[1], width=1.5, normals=normals, scene=where),
+        traces.parameter_lines(points, size, along="u", at=columns[0], width=3.5, normals=normals, scene=where),
+        traces.parameter_lines(points, size, along="w", at=rows[0], width=3.5, normals=normals, scene=where),
     ]
-    return [trace for trace in drawn if np.isfinite(trace["x"]).any()] + letters(points, size, where, (called[0], called[1]))
+    return [trace for trace in drawn if np.isfinite(trace["x"]).any()] + letters(
+        points, size, where, (called[0], called[1]), normals
+    )
 
 
-def letters(points: Array, size: float, where: str, labels: tuple[str, str] = ("u", "w")) -> list[dict[str, Any]]:
+def letters(
+    points: Array, size: float, where: str, labels: tuple[str, str] = ("u", "w"), normals: Array | None = None
+) -> list[dict[str, Any]]:
     """A dot where u = w = 0, and each letter on its edge from there, where it is seen best.
 
     Where an edge is no more than a point, as at a pole, its letter stands on the line through the middle.
@@ -239,7 +244,7 @@ def letters(points: Array, size: float, where: str, labels: tuple[str, str] = ("
         ends = np.stack([points[place] for place in places])
         # Moved off the surface, to the side that is seen at first, and over the edge, or it would hide them; beside a closed
         # edge to the inner side, since the outer one is the end of the box.
-        normals = grid_normals(points)
+        normals = grid_normals(points) if normals is None else normals
         off = np.stack([normals[place] for place in places])
         off = off * np.where(off @ TOWARDS < 0, -1.0, 1.0)[:, None]
         (i, on_u), (on_w, j) = places

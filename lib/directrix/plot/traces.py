@@ -74,13 +74,23 @@ def surface(
     return trace
 
 
-def parameter_lines(points: Array, size: float, *, along: str, at: Iterable[int], width: float = 2.0, **style: Any) -> Trace:
+def parameter_lines(
+    points: Array,
+    size: float,
+    *,
+    along: str,
+    at: Iterable[int],
+    width: float = 2.0,
+    normals: Array | None = None,
+    **style: Any,
+) -> Trace:
     """The curves of a sampled surface on which one parameter is held, in the colour of the one that runs.
 
     ``along="u"``: w is held at the columns ``at`` and u runs. ``along="w"``: u is held at the rows ``at`` and w runs.
-    ``size`` is that of the picture, of which the lift is a share.
+    ``size`` is that of the picture, of which the lift is a share; ``normals`` are :func:`grid_normals` of the points, where
+    they are known already.
     """
-    lift = LIFT * size * grid_normals(points)
+    lift = LIFT * size * (grid_normals(points) if normals is None else normals)
     picked = sorted(set(at))
     sides = [points + lift, points - lift]
     curves = [side[:, j] if along == "u" else side[j] for side in sides for j in picked]

@@ -150,13 +150,14 @@ def _surface(
     rows = edges_and_lines(samples, lines)
     built = [traces.surface(points, u, w, name=name) if colour is None else _curved(f, points, u, w, colour, name)]
     size = size_of(points)
+    directions = grid_normals(points)
     drawn = [
-        traces.parameter_lines(points, size, along="u", at=rows[1], width=1.5),
-        traces.parameter_lines(points, size, along="w", at=rows[1], width=1.5),
-        traces.parameter_lines(points, size, along="u", at=rows[0], width=5),
-        traces.parameter_lines(points, size, along="w", at=rows[0], width=5),
+        traces.parameter_lines(points, size, along="u", at=rows[1], width=1.5, normals=directions),
+        traces.parameter_lines(points, size, along="w", at=rows[1], width=1.5, normals=directions),
+        traces.parameter_lines(points, size, along="u", at=rows[0], width=5, normals=directions),
+        traces.parameter_lines(points, size, along="w", at=rows[0], width=5, normals=directions),
     ]
-    built += [trace for trace in drawn if len(trace["x"])] + letters(points, size, "scene")
+    built += [trace for trace in drawn if len(trace["x"])] + letters(points, size, "scene", normals=directions)
     notes = [legend()]
     if knots is not None:
         built += knot_lines(f, u, knots)
