@@ -300,3 +300,23 @@ def test_a_net_of_periodic_knots_is_closed(form, closed):
     breaks = np.flatnonzero(np.isnan(lines[:, 0]))
     parts = [part[~np.isnan(part[:, 0])] for part in np.split(lines, breaks)]
     assert sum(len(part) > 1 and np.array_equal(part[0], part[-1]) for part in parts) == closed
+
+
+def test_further_curves_with_gaps_leave_the_box_to_finite_points():
+    """NaN rows are gaps in the line; what is not finite, in one coordinate or in all, stretches the scene nowhere."""
+
+    def patch(u, w):
+        return np.stack(np.broadcast_arrays(u, w, u * w), axis=-1)
+
+    t = np.linspace(0, 1, 21)
+    line = np.stack([t, t, 3 * t], axis=-1)
+    whole = view(patch, curves={"line": line[:11]})
+    line[11:] = [np.nan, np.inf, 300.0]
+    line[4:6] = np.nan
+    broken = view(patch, curves={"line": line})
+    for axis in ("xaxis", "yaxis", "zaxis"):
+        assert broken.layout.scene[axis].range == whole.layout.scene[axis].range
+    drawn = next(trace for trace in broken.data if trace.name == "line")
+    assert np.isnan(drawn.x[4:6]).all()
+    assert np.isfinite(np.r_[drawn.x[:4], drawn.x[6:11]]).all()
+    assert not drawn.connectgaps
