@@ -50,6 +50,16 @@ def test_the_template_keeps_every_rule_at_once(followed):
     assert all(name in changed for name in ("no_rise", "from_the_edge", "wide_and_low", "one_high"))
 
 
+def test_the_finer_points_keep_every_rule_too(followed):
+    """Weights, spans, an exercise built on another: the roofs twice over with their notebook, the gutter by itself."""
+    _, said = followed
+    roofs = said["directrix author check assignments/20-roofs --run"]
+    assert "2 exercises, 7 points" in roofs
+    assert all(name in roofs for name in ("steep", "some_ridge", "from_the_back"))
+    gutters = said["directrix author check assignments/22-gutters"]
+    assert "1 exercise, 3 points: every rule holds" in gutters
+
+
 def test_release_says_what_learners_do_not_have_until_they_have_it(followed):
     """Only the exercises go along, not the notebook source with its solutions."""
     place, said = followed
