@@ -53,8 +53,9 @@ class Submitted(NotebookExporter):
         """Begin a submitted notebook with an empty page, since Rebuild reads it itself: what nbformat refuses, it may not."""
         if not self._as_handed_in:
             return super().from_file(file_stream, resources=resources, **options)
-        page = nbformat.from_dict({"nbformat": 4, "nbformat_minor": 5, "metadata": {}, "cells": []})
-        return super().from_notebook_node(page, resources=resources, **options)
+        page: Any = nbformat.from_dict({"nbformat": 4, "nbformat_minor": 5, "metadata": {}, "cells": []})  # type: ignore[no-untyped-call]
+        begun: tuple[Any, Any] = super().from_notebook_node(page, resources=resources, **options)  # type: ignore[no-untyped-call]
+        return begun
 
     @property
     def _as_handed_in(self) -> bool:
