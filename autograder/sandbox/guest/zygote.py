@@ -16,6 +16,7 @@ import shutil
 import signal
 import socket
 import sys
+import types
 import warnings
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -141,12 +142,30 @@ def _warm_up(shell: Shell, preload: list[str]) -> None:
         for name in (*NUMPY, *SHOWING, *preload):
             with contextlib.suppress(Exception):
                 importlib.import_module(name)
+        _take_arrays_as_they_are(sys.modules.get("_plotly_utils.basevalidators"))
         for figure in _figures(sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")):
             with contextlib.suppress(Exception):
                 shell.rehearse_showing(figure())
         shell.rehearse("1 / 0")
         if "directrix.plot" in sys.modules:  # the commonest mistakes: a traceback through the library reads its files
             shell.rehearse("__import__('directrix.plot').plot.view(lambda u, w: u + w)")
+
+
+def _take_arrays_as_they_are(validators: Any) -> None:
+    """plotly asks narwhals of every array whether it is a table of pandas, polars or the like, which takes longer than
+    to copy it. What is exactly an array of numpy is none, and narwhals would hand it back as it came.
+    """
+    narwhals = getattr(validators, "nw", None)
+    ask = getattr(narwhals, "from_native", None)
+    if narwhals is None or ask is None:  # another version of plotly
+        return
+
+    def from_native(value: Any, **options: Any) -> Any:
+        return value if type(value) is np.ndarray and options.get("pass_through") else ask(value, **options)
+
+    own = types.ModuleType(narwhals.__name__)
+    own.__dict__.update(narwhals.__dict__, from_native=from_native)
+    validators.nw = own
 
 
 def _figures(go: Any, plot: Any) -> Iterator[Callable[[], Any]]:
@@ -166,11 +185,7 @@ def _figures(go: Any, plot: Any) -> Iterator[Callable[[], Any]]:
         scene = {"aspectmode": "data", "camera": {"eye": {"x": 1}}, **{f"{letter}axis": axis for letter in "xyz"}}
         yield lambda: go.Figure([*traces, marked])
         yield lambda: go.Figure(traces).update_layout(**about, scene=scene, margin={"l": 0}, showlegend=False)
-        yield (
-            lambda: (
-                go.Figure(marked, {"template": "none"}).add_annotation(text="a", x=0, y=0).update_yaxes(visible=False)
-            )
-        )
+        yield (lambda: go.Figure(marked, {"template": "none"}).add_annotation(text="a", x=0, y=0).update_yaxes(visible=False))
     if plot is not None:
         yield lambda: plot.view(saddle)
         yield lambda: plot.view(saddle, square=True, mark=(0.5, 0.5), normals=True, title="a saddle")

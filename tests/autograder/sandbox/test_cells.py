@@ -1,11 +1,13 @@
 """What cells show, and how they end. What a kernel would show is in test_awkward.py."""
 
+import ast
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from IPython.core.inputtransformer2 import TransformerManager
 
-from autograder.sandbox import Limits
+from autograder.sandbox import Limits, Policy, Sandbox
 from autograder.sandbox.guest import shell
 
 PIECES = (
@@ -166,3 +168,26 @@ def test_plain_python_is_seen_to_be_plain(source, monkeypatch):
     monkeypatch.setattr(TransformerManager, "do_token_transforms", lambda self, lines: ["taken apart"])
     assert shell.Plainly().transform_cell(source) == source + "\n"
     assert shell.Plainly().transform_cell(source + "\n%time 1") == "taken apart"
+
+
+FIGURE = """
+import numpy as np, plotly.graph_objects as go
+go.Figure([
+    go.Scatter3d(x=np.arange(3), y=np.float32([1, np.nan, 2]), z=np.array(["a", 2, None], object), text=np.array(["p", "q"])),
+    go.Surface(z=np.eye(3)[:, ::2], customdata=np.ones((3, 2, 2), bool), surfacecolor=np.ma.masked_less(np.eye(3), 0.5)),
+    go.Scatter(x=np.array(["2000-01-01"], "M8[D]"), y=[1], marker={"color": np.uint8([7])}),
+]).to_json()
+"""
+
+
+def test_arrays_are_drawn_as_plotly_draws_them_elsewhere():
+    with Sandbox(Policy(packages=("numpy", "plotly"))) as box, box.open() as session:
+        direct = (
+            "import _plotly_utils.basevalidators as b, narwhals\nb.nw is narwhals, b.nw.from_native([1], pass_through=True)"
+        )
+        assert session.run_cell(direct).outputs[0]["data"]["text/plain"] == "(False, [1])"
+        inside = ast.literal_eval(session.run_cell(FIGURE).outputs[0]["data"]["text/plain"])
+    *setting, last = ast.parse(FIGURE).body
+    namespace: dict = {}
+    exec(compile(ast.Module(setting, []), "figure", "exec"), namespace)
+    assert inside == eval(compile(ast.Expression(last.value), "figure", "eval"), namespace)
