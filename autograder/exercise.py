@@ -25,6 +25,7 @@ import inspect
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -218,6 +219,16 @@ class Exercise:
             seed = self.public_seed
         return [Drawn(known.name, self._arguments_of(known, seed), known.blind, known.says) for known in self.data_sets]
 
+    @cached_property
+    def by_heart(self) -> frozenset[str]:
+        """Names of data sets that are the same under every seed: whoever was shown them can write the answer down."""
+        once, again = self.draw("once"), self.draw("again")
+        return frozenset(
+            one.name
+            for one, other in zip(once, again, strict=True)
+            if all(_same(one.arguments[name], other.arguments[name]) for name in one.arguments)
+        )
+
     def _arguments_of(self, known: DataSet, seed: int | str | bytes) -> dict[str, Any]:
         drawn = known.draw(generator(seed, self.id, known.name))
         wanted = self.arguments[len(self.parameters) :]
@@ -335,6 +346,16 @@ def _frozen(value: Any) -> Any:
     array = np.array(value)
     array.flags.writeable = False
     return array
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two drawn arguments are equal."""
+    if isinstance(one, tuple):
+        return len(one) == len(other) and all(map(_same, one, other))
+    if isinstance(one, CurveData | SurfaceData):
+        fields = type(one).__slots__
+        return type(one) is type(other) and all(np.array_equal(getattr(one, name), getattr(other, name)) for name in fields)
+    return bool(np.array_equal(one, other)) if isinstance(one, np.ndarray) else bool(one == other)
 
 
 def _readable(value: Any) -> str:

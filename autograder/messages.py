@@ -173,6 +173,7 @@ TEXT: dict[str, str] = {
     "share.different": "not right",
     "share.data": "right on {right} of {of} data sets",
     "share.data_seeing": "right on {right} of {of} data sets; blind ones do not count",
+    "share.data_drawn": "right on {right} of {of} data sets; blind ones and those that are everybody's do not count",
     "share.data_weighted": "right on data sets that count {right} of {of}",
     "share.partly": "since not on all",
     "share.refusal": "no ValueError where there is no answer",

@@ -59,8 +59,11 @@ def _by_tier(exercise: Exercise, asked_for: Sequence[Finding], rung: Tier) -> li
 
 
 def _by_data(exercise: Exercise, asked_for: Sequence[Finding]) -> list[tuple[str, float]]:
-    """The share of the data sets that are right, shown and hidden numbers alike; nothing where the function itself fails."""
-    seeing = [f for f in asked_for if not f.target.drawn.blind]
+    """The share of the data sets that are right, shown and hidden numbers alike; nothing where the function itself fails.
+
+    Data that are the same for everybody count neither way: their answer can be written down without computing it.
+    """
+    seeing = [f for f in asked_for if not f.target.drawn.blind and f.target.name not in exercise.by_heart]
     if any(f.tier in WHOLE for f in asked_for):
         return [("", 0.0)]
     weights = {known.name: known.weight for known in exercise.data_sets if known.name in {f.target.name for f in seeing}}
@@ -72,6 +75,8 @@ def _by_data(exercise: Exercise, asked_for: Sequence[Finding]) -> list[tuple[str
     even = len(set(weights.values())) == 1
     told = (len(weights) - len(wrong), len(weights)) if even else (right, whole)
     facts = {"right": number(told[0]), "of": number(told[1])}
-    blind = len(seeing) < len(asked_for)
-    key = ("share.data_seeing" if blind else "share.data") if even else "share.data_weighted"
+    left_out = [f for f in asked_for if f not in seeing]
+    known = any(not f.target.drawn.blind for f in left_out)
+    key = "share.data_drawn" if known else "share.data_seeing" if left_out else "share.data"
+    key = key if even else "share.data_weighted"
     return [(say(key, **facts), right / whole), (say("share.partly"), exercise.data_credit)]

@@ -28,7 +28,7 @@ def sheet(*, weights=(1, 1, 1, 1), blind=(), **options):
     for number, weight in enumerate(weights):
 
         def draw(rng, number=number):
-            return {"d": number}
+            return {"d": number + rng.uniform(0, 0.5)}
 
         draw.__name__ = f"set_{number}"
         sheet.data(draw, weight=weight, blind=number in blind)
@@ -39,7 +39,7 @@ def wrong_on(*numbers, by=None):
     """An answer that is wrong on these data sets."""
 
     def answer(u, w, d):
-        return flat(u, w) if d not in numbers else (by or (lambda u, w: flat(u, w) + np.sin(5 * u * w)[..., None]))(u, w)
+        return flat(u, w) if int(d) not in numbers else (by or (lambda u, w: flat(u, w) + np.sin(5 * u * w)[..., None]))(u, w)
 
     return answer
 
@@ -89,7 +89,7 @@ def test_blind_data_count_nothing():
 
 
 def test_what_is_learnt_by_heart_counts_nothing():
-    """A data set is right only where its hidden numbers are too."""
+    """A data set is right only where its hidden numbers are too, and one without any counts neither way."""
 
     @exercise(points=4, title="Sheet", kind="surface")
     def scaled(u, w, d):
@@ -104,14 +104,26 @@ def test_what_is_learnt_by_heart_counts_nothing():
     def drawn(rng):
         return {"d": rng.uniform(3, 4)}
 
+    @scaled.data
+    def drawn_large(rng):
+        return {"d": rng.uniform(30, 40)}
+
+    assert scaled.by_heart == {"fixed"}
     by_heart = scaled.draw(0)[1].arguments["d"]
 
-    def answer(u, w, d):
-        return (2.0 if d == 2.0 else by_heart) * flat(u, w) + (0 if d in (2.0, by_heart) else np.sin(5 * u * w)[..., None])
+    def wrong(u, w):
+        return np.sin(5 * u * w)[..., None] + flat(u, w)
 
-    assert judged(scaled, answer).outcome == "passed"
-    assert judged(scaled, answer, seed=b"hidden").terms == (("right on 1 of 2 data sets", 0.5), ("since not on all", 0.5))
-    assert judged(scaled, lambda u, w, d: answer(u, w, d if d == by_heart else 9.0), seed=b"hidden").fraction == 0.0
+    def written_down(u, w, d):
+        return 2 * flat(u, w) if d == 2 else by_heart * flat(u, w) if d == by_heart else wrong(u, w)
+
+    def small(u, w, d):
+        return d * flat(u, w) if d < 10 else wrong(u, w)
+
+    assert judged(scaled, written_down, seed=b"hidden").fraction == 0.0
+    said = "right on 1 of 2 data sets; blind ones and those that are everybody's do not count"
+    assert judged(scaled, small, seed=b"hidden").terms == ((said, 0.5), ("since not on all", 0.5))
+    assert judged(scaled, lambda u, w, d: 2.0 * flat(u, w), seed=b"hidden").fraction == 0.0
 
 
 def test_the_better_of_tier_and_data_counts():
