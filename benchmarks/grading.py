@@ -1,7 +1,7 @@
 """Submissions per second, CPU per submission and peak memory: `directrix grade` beside nbgrader, otter and the bare sandbox.
 
     python benchmarks/grading.py [--submissions 200] [--peer 8] [--rounds 1] [--workers 1 2 4] [--course exercises]
-                                 [--growth 100 1000 5000] [--otter] [--profile]
+                                 [--growth 100 1000 5000] [--dask tcp tls] [--otter] [--profile]
 
 Two courses, both made here by nbgrader's own release: ``exercises`` is A1, whose graded cells are ``check(...)``; ``ordinary``
 has cells of asserts, hidden ones among them, as any nbgrader course. All submissions differ. Every figure is that of a whole
@@ -18,6 +18,7 @@ Times depend on the machine and on who else uses it; the ratios are what is mean
 from __future__ import annotations
 
 import argparse
+import contextlib
 import functools
 import json
 import os
@@ -29,6 +30,7 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -245,6 +247,31 @@ def best(command: list[str], template: Path, scratch: Path, rounds: int, count: 
     return min(found, key=lambda one: one.seconds)
 
 
+# ---- Dask
+
+
+@contextlib.contextmanager
+def dask_cluster(workers: int, protocol: str) -> Iterator[str]:
+    """The address of a cluster of processes on this machine, running beforehand; with certificates of its own over TLS.
+
+    Its workers are no children of the grader, so that the CPU time and memory of such a row are the grader's own alone.
+    """
+    import distributed
+
+    security = distributed.Security.temporary() if protocol == "tls" else None
+    files = {"CA_FILE": "tls_ca_file", "CLIENT__CERT": "tls_client_cert", "CLIENT__KEY": "tls_client_key"}
+    named = {f"DASK_DISTRIBUTED__COMM__TLS__{name}": getattr(security, of) for name, of in files.items()} if security else {}
+    with distributed.LocalCluster(
+        n_workers=workers, threads_per_worker=1, protocol=f"{protocol}://", security=security, dashboard_address=None
+    ) as cluster:
+        os.environ.update(named)
+        try:
+            yield cluster.scheduler_address
+        finally:
+            for name in named:
+                del os.environ[name]
+
+
 # ---- otter
 
 
@@ -295,6 +322,10 @@ def compare(name: str, options: argparse.Namespace, scratch: Path) -> None:
         rows[f"directrix grade, {workers} workers"] = again([*ours, str(workers)], count=options.submissions, keep=keep)
     sandbox = [sys.executable, __file__, "--bare", assignment, str(most)]
     rows[f"{BARE}, {most} workers"] = again(sandbox, count=options.submissions)
+    for protocol in options.dask or ():
+        with dask_cluster(most, protocol) as address:
+            command = [*ours[:-1], "--scheduler", address]
+            rows[f"directrix grade, Dask {protocol}, {most}"] = again(command, count=options.submissions)
     print(f"\n{name}: {assignment}, {options.submissions} different submissions, {os.cpu_count()} processors")
     table(rows, next(iter(rows)))
     share = rows[f"directrix grade, {most} workers"].rate / rows[f"{BARE}, {most} workers"].rate
@@ -354,6 +385,7 @@ def main() -> None:
     parser.add_argument("--workers", type=int, nargs="+", default=[1, 2, 4])
     parser.add_argument("--course", nargs="+", choices=COURSES, default=list(COURSES))
     parser.add_argument("--growth", type=int, nargs="+", metavar="N", help="classes of these sizes, for example 100 1000 5000")
+    parser.add_argument("--dask", nargs="+", choices=["tcp", "tls"], help="rows through Dask on this machine, by protocol")
     parser.add_argument("--otter", action="store_true", help="install otter-grader in a scratch environment and run it too")
     parser.add_argument("--profile", action="store_true", help="print where the trusted side's time goes, and nothing else")
     options = parser.parse_args()

@@ -55,6 +55,7 @@ class Cluster:
     ) -> None:
         self.client, self.job, self._seed, self._read, self._lay_out = client, job, seed, read, lay_out
         self.unfinished: list[Task] = []
+        self._closed = False
         self._sent: dict[distributed.Future, list[Task]] = {}
         self._again: deque[Task] = deque()  # each by itself: one of them may be what ended its workers
         self._ready: list[tuple[Task, Landed]] = []
@@ -70,6 +71,9 @@ class Cluster:
 
     def close(self) -> None:
         """Take back what is not done, and what workers were given."""
+        if self._closed:
+            return
+        self._closed = True
         for tasks in self._sent.values():
             self.unfinished += tasks
         futures, self._sent = list(self._sent), {}

@@ -38,7 +38,7 @@ from autograder.errors import DirectrixError  # noqa: E402
 from tests.autograder.conftest import ORDINARY, ORDINARY_CONFIG, Classroom, PostgresClassroom, generated  # noqa: E402
 from tests.autograder.fleet.dask_processes import Processes  # noqa: E402
 from tests.autograder.postgres_server import Server  # noqa: E402
-from tests.faults.faults import FAULTS, Scene, limited  # noqa: E402
+from tests.faults.faults import FAULTS, Scene, limited, unlimited  # noqa: E402
 
 # A sandbox with few packages starts quickly, so that faults meet the grading and not its start.
 CONFIG = ORDINARY_CONFIG + 'c.Directrix.packages = ("numpy",)\n'
@@ -136,15 +136,17 @@ class Grader:
             if prepare is not None:
                 prepare()
             graded = fleet.grade(room.course(), room.assignment, workers=workers, force=force, scheduler=scheduler)
+            unlimited()
             statuses = collections.Counter(student.status for student in graded.students)
             print(json.dumps({"statuses": statuses, "faults": graded.faults}), flush=True)
             code = 1 if graded.failures else 0
         except DirectrixError as error:
+            unlimited()
             print(f"directrix: {error}", flush=True)
             code = 1
         except BaseException:
-            with contextlib.suppress(OSError):
-                traceback.print_exc()
+            unlimited()
+            traceback.print_exc()
         finally:
             os._exit(code)
 

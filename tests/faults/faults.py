@@ -205,4 +205,9 @@ FAULTS = {
 def limited(chance):
     """In a grader that starts: no file may grow beyond a size that is somewhere among those of a course."""
     most = chance.choice([1000, 3000, 6000, 20_000, 100_000, 200_000])
-    resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
+
+
+def unlimited():
+    """When it has ended, what it says may be written."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
