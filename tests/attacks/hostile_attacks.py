@@ -298,7 +298,13 @@ ATTACKS: dict[str, Attack] = {
     ),
     "tests_replaced": Attack(
         "the tests in the gradebook replaced, for whoever is graded next",
-        SQL.format("db.execute(\"update source_cell set source = 'pass' where name like 't_%'\")"), only=NBGRADER_LIKE,
+        "import hashlib\n"
+        + SQL.format(
+            "for name in ('t_close', 't_plain', 't_helper', 't_module', 't_partial'):\n"
+            "    total = hashlib.md5(('passcodeTrueFalseTrue' + name + '1.0').encode()).hexdigest()  # as nbgrader makes it\n"
+            "    db.execute(\"update source_cell set source = 'pass', checksum = ? where name = ?\", (total, name))"
+        ),
+        only=NBGRADER_LIKE,
     ),
     # ---- secrets
     "hidden_tests_read": Attack(
