@@ -114,8 +114,10 @@ class Reference:
 class Grader:
     """A grader as a process of its own, forked so that it starts quickly, in a session of its own."""
 
+    logs = Path()  # away from the disk that is filled
+
     def __init__(self, room, scheduler, workers, *, force=False, prepare=None):
-        self.log = room.folder.parent / f"{room.folder.name}.log"
+        self.log = self.logs / f"{room.folder.name}.log"
         self.began = self.log.stat().st_size if self.log.exists() else 0
         self.status = None
         self.pid = os.fork()
@@ -376,6 +378,7 @@ def campaign(name, faults, seed, scratch):
     """Run that many faults over one backend; how many were done and came too late by kind, and what differed."""
     counts = collections.defaultdict(lambda: [0, 0])
     problems = []
+    Grader.logs = scratch
     chance = random.Random(f"{name} {seed}")
     with contextlib.ExitStack() as stack:
         backend = Backend(name, scratch, stack)
