@@ -23,7 +23,7 @@ import numpy as np
 
 DEPTH = 24  # of containers in containers
 # Of a function: what can be learned of it without calling it.
-INSIDE = "__code__ __closure__ __defaults__ __kwdefaults__ __globals__ __annotations__ __signature__".split()
+INSIDE = ["__code__", "__closure__", "__defaults__", "__kwdefaults__", "__globals__", "__annotations__", "__signature__"]
 WIRE_DEPTH = 3 * DEPTH + 8  # each container takes up to three tuples of the wire
 MESSAGE = 2000  # characters kept of an error's message
 CONTAINERS: dict[str, type] = {"list": list, "tuple": tuple, "set": set, "frozenset": frozenset}
