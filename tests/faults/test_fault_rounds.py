@@ -1,4 +1,4 @@
-"""A small campaign of faults in every run of the tests; `python tests/faults/campaign.py` runs the large one."""
+"""A small campaign of faults in every run of the tests; `python tests/faults/fault_rounds.py` runs the large one."""
 
 import subprocess
 import sys
@@ -8,10 +8,10 @@ from typing import ClassVar
 import pytest
 
 from tests.autograder.postgres_server import programs
-from tests.faults import campaign
+from tests.faults import fault_rounds
 from tests.faults.faults import FAULTS
 
-SCRIPT = Path(campaign.__file__)
+SCRIPT = Path(fault_rounds.__file__)
 
 
 def run(*arguments):
@@ -32,14 +32,14 @@ def test_a_class_comes_through_faults_of_each_kind():
 def test_a_class_in_postgresql_comes_through_a_few():
     if programs() is None:
         pytest.skip("no PostgreSQL found: install the package `postgresql` to run this test")
-    done = run("--faults", "3", "--backend", "postgres", "--seed", "2")
+    done = run("--faults", "2", "--backend", "postgres", "--seed", "2")
     assert done.returncode == 0, done.stdout[-5000:] + done.stderr[-3000:]
 
 
 def test_the_campaign_sees_what_it_looks_for(tmp_path):
     """A changed file, a missing one, a mark from nowhere, a lost or invented manual mark, a doubled row."""
 
-    class Reference:  # as campaign.Reference
+    class Reference:  # as fault_rounds.Reference
         grades = [{("s00", "one", "test_square", "GradeCell"): (2.0, None, None, 0)}] * 2
         comments = [{}] * 2
         files = [{"s00/ps1/one.ipynb": b"{}", "s00/ps1/data.csv": b"1"}] * 2
@@ -56,8 +56,8 @@ def test_the_campaign_sees_what_it_looks_for(tmp_path):
         def tables(self):
             return {"grades": [self.grade] * self.times, "comments": []}
 
-    looked = campaign.Round.__new__(campaign.Round)
-    looked.reference, looked.room, looked.manual, looked.turn = Reference, Room(), {}, dict.fromkeys(campaign.CLASS, 0)
+    looked = fault_rounds.Round.__new__(fault_rounds.Round)
+    looked.reference, looked.room, looked.manual, looked.turn = Reference, Room(), {}, dict.fromkeys(fault_rounds.CLASS, 0)
     looked._whole()
     changes = {
         "is nothing that a clean run writes": {"files": {"s00/ps1/one.ipynb": b"{"}},
@@ -68,5 +68,5 @@ def test_the_campaign_sees_what_it_looks_for(tmp_path):
     }
     for said, change in changes.items():
         looked.room = type("Changed", (Room,), change)()
-        with pytest.raises(campaign.Differs, match=said):
+        with pytest.raises(fault_rounds.Differs, match=said):
             looked._whole()
