@@ -44,14 +44,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     ids = options.only or [exercise.id for exercise in shipped()]
     for id in ids:
         shipped().find(id)
-    started = time.monotonic()
+    started, version = time.monotonic(), page.tried()
     rows, failures = COMMANDS[options.command](options, ids)
     print(page.table(options.command, rows))
     for failure in failures:
         print(failure)
     print(f"{time.monotonic() - started:.0f} s")
     if options.write:
-        page.write(options.command, rows, _said(options))
+        page.write(options.command, rows, _said(options), version)
     return 1 if failures else 0
 
 

@@ -7,7 +7,8 @@ import subprocess
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from datetime import date
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import PackageNotFoundError
+from importlib.metadata import version as installed
 from pathlib import Path
 from typing import Any
 
@@ -158,10 +159,10 @@ def groups(neither: Sequence[Outcome]) -> str:
     return "\n".join(lines)
 
 
-def write(command: str, rows: Sequence[Mapping[str, Any]], said: str) -> None:
-    """Keep the totals of a campaign and make the page anew."""
+def write(command: str, rows: Sequence[Mapping[str, Any]], said: str, version: str) -> None:
+    """Keep the totals of a campaign and make the page anew. ``version``: of what was tried, taken when it began."""
     kept = json.loads(RESULTS.read_text("utf-8")) if RESULTS.exists() else {}
-    kept[command] = {"command": said, "date": date.today().isoformat(), "version": _version(), "totals": totals(command, rows)}
+    kept[command] = {"command": said, "date": date.today().isoformat(), "version": version, "totals": totals(command, rows)}
     kept = {name: kept[name] for name in SECTIONS if name in kept}
     RESULTS.write_text(json.dumps(kept, indent=2) + "\n", "utf-8")
     PAGE.write_text(rendered(kept), "utf-8")
@@ -216,9 +217,10 @@ def rendered(kept: Mapping[str, Any]) -> str:
     return "\n".join([*parts, CLOSING])
 
 
-def _version() -> str:
+def tried() -> str:
+    """The version of the package and the commit of the checkout."""
     try:
-        number = version("directrix")
+        number = installed("directrix")
     except PackageNotFoundError:
         number = "not installed"
     run = subprocess.run(["git", "rev-parse", "--short", "HEAD"], cwd=HERE, capture_output=True, text=True, check=False)
