@@ -1,6 +1,7 @@
 """The table of attacks: every attack handed in to nbgrader, to otter and to Directrix, and what came of it.
 
-    python tests/attacks/table.py [--graders nbgrader otter ours] [--attacks NAME ...] [--jobs 2] [--otter PYTHON] [--write]
+    python tests/attacks/table.py [--graders nbgrader otter ours] [--attacks NAME ...] [--jobs 2] [--otter PYTHON]
+                                   [--keep FILE] [--write]
 
 One course is made by nbgrader itself; each attack is handed in to a copy of it. After the grading, marks, tests, files and
 processes are compared with before, and it is looked whether a random word got out that the attacker should not know. Before
@@ -11,19 +12,22 @@ root, it does so twice: as root, and as an ordinary user. nbgrader and otter gra
 they execute what they are handed in with that user's rights. The attacks are harmless by construction, and reach for decoys.
 
 otter-grader is installed in a scratch environment (``--otter``: the Python of one that has otter-grader, geomdl and ipykernel);
-where it cannot be had its column says so. Takes a quarter of an hour. ``--write`` writes docs/attacks.md.
+where it cannot be had its column says so. Takes a quarter of an hour; with ``--keep`` each result goes into a file as it comes,
+and a run that was stopped goes on from there. ``--write`` writes docs/attacks.md.
 """
 
 from __future__ import annotations
 
 import argparse
 import importlib.util
+import json
 import os
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -80,8 +84,12 @@ def as_user(command: list[str], **options: Any) -> subprocess.CompletedProcess[s
 class Table:
     """Runs attacks against graders, in rooms below one folder."""
 
-    def __init__(self, folder: Path, otter: Path | None = None) -> None:
-        self.folder, self.otter = folder, otter
+    def __init__(self, folder: Path, otter: Path | None = None, keep: Path | None = None) -> None:
+        self.folder, self.otter, self.keep = folder, otter, keep
+        lines = keep.read_text("utf-8").splitlines() if keep is not None and keep.exists() else []
+        self.known = {
+            (one["grader"], one["attack"]): Seen(one["points"], one["told"], one["harm"]) for one in map(json.loads, lines)
+        }
         self.made = template(folder / "template")
         self.rooms = 0
 
@@ -117,24 +125,33 @@ class Table:
     def column(self, grader: str, attacks: Mapping[str, Attack], jobs: int = 1) -> dict[str, Seen]:
         """What came of each attack against one grader that it concerns."""
         chosen = {name: attack for name, attack in attacks.items() if grader.split()[0] in attack.only}
+        found = {name: self.known[grader, name] for name in chosen if (grader, name) in self.known}
+        if len(found) == len(chosen):
+            return found
         zoe = self.honest(grader)
-        found: dict[str, Seen] = {}
         if grader.startswith("ours"):
-            together = {name: attack for name, attack in chosen.items() if not attack.options}
+            together = {name: attack for name, attack in chosen.items() if not attack.options and name not in found}
             if together:
                 seen = dict(zip(together, self.room(grader, together, zoe)[0], strict=True))
                 if not any(one.harm for one in seen.values()):
-                    found = seen
+                    found |= {name: self.kept(grader, name, one) for name, one in seen.items()}
         alone = [name for name in chosen if name not in found]
 
         def one(name: str) -> Seen:
             (seen,), _ = self.room(grader, {name: chosen[name]}, zoe)
             print(f"  {grader}: {name}: {seen}", file=sys.stderr)
-            return seen
+            return self.kept(grader, name, seen)
 
         with ThreadPoolExecutor(jobs) as pool:
             found |= dict(zip(alone, pool.map(one, alone), strict=True))
         return {name: found[name] for name in chosen}
+
+    def kept(self, grader: str, name: str, seen: Seen) -> Seen:
+        """Write a result down, if that was asked for."""
+        if self.keep is not None:
+            with self.keep.open("a", encoding="utf-8") as file:
+                file.write(json.dumps({"grader": grader, "attack": name, **asdict(seen)}) + "\n")
+        return seen
 
 
 def scratch_otter(folder: Path) -> Path | None:
@@ -190,12 +207,13 @@ def main() -> int:
     parser.add_argument("--attacks", nargs="+", choices=ATTACKS, default=list(ATTACKS), metavar="NAME")
     parser.add_argument("--jobs", type=int, default=2, help="rooms at a time")
     parser.add_argument("--otter", type=Path, help="Python of an environment with otter-grader; default: make one")
+    parser.add_argument("--keep", type=Path, help="file of results; those in it are not asked for again")
     parser.add_argument("--write", action="store_true", help="write docs/attacks.md")
     options = parser.parse_args()
     attacks = {name: ATTACKS[name] for name in options.attacks}
     with tempfile.TemporaryDirectory(prefix="attacks-") as scratch:
         otter = (options.otter or scratch_otter(Path(scratch))) if "otter" in options.graders else None
-        table = Table(Path(scratch), otter)
+        table = Table(Path(scratch), otter, options.keep)
         columns: dict[str, dict[str, Seen] | None] = {}
         for grader in options.graders:
             columns[grader] = None if grader == "otter" and otter is None else table.column(grader, attacks, options.jobs)
