@@ -46,6 +46,7 @@ ENDED = {
 SKIP_TAG = "skip-execution"
 HURRIED = "Stopped by the clock before its computing time was used up: no mark, since a busy machine can do that; please look."
 AFTER = "An earlier cell was stopped by the clock before its computing time was used up: no mark; please look."
+FAULTY = "An earlier cell could not be run, which is not this notebook's fault: no mark; it is graded again."
 
 
 class Result(Protocol):
@@ -227,7 +228,7 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
     def call(*args: Any) -> Any:
         return called(name, args)
 
-    after = runner.hurried
+    after = runner.after
     try:
         verdict = judge(exercise, call, seed=seed(name), earlier=lambda: before.used_by(name, called))
     except Exception as error:  # the grader's own fault is never the learner's zero
@@ -236,8 +237,8 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
         return CellRun("judged", _unjudged(name, "The judge itself failed, so this could not be judged.", exercise), note)
     if verdict.outcome == "could not judge" and runner.late:
         return CellRun("judged", _unjudged(name, runner.spent, exercise), runner.spent)
-    if runner.hurried and verdict.outcome != "passed":
-        note = AFTER if after else HURRIED
+    if (runner.hurried or after) and verdict.outcome != "passed":
+        note = after or HURRIED
         return CellRun("judged", _unjudged(name, note, exercise), note)
     if verdict.outcome == "could not judge":
         return CellRun("judged", verdict, runner.fault(f"{name}: {verdict.message}"))
@@ -321,11 +322,16 @@ class _Runner:
             outputs.append(_ended(status if status in ENDED else "died", result.note))
         elif status == "error" and not any(output["output_type"] == "error" for output in outputs):
             outputs.append(_error("Error", result.note or "this cell raised an error"))
-        if self.hurried and status != "ok":
-            return CellRun("not run", note=AFTER), outputs
+        if self.after and status != "ok":
+            return CellRun("not run", note=self.after), outputs
         if self.by_clock(status):
             return CellRun("not run", note=HURRIED), outputs
         return CellRun(status, note=result.note), outputs
+
+    @property
+    def after(self) -> str:
+        """Why what fails from here on has no mark; empty as long as it is the learner's own."""
+        return AFTER if self.hurried else FAULTY if self.faults else ""
 
     def by_clock(self, status: str) -> bool:
         """Whether what has just ended so was stopped by the clock with CPU time left; ``hurried`` from then on."""

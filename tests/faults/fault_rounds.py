@@ -120,18 +120,22 @@ class Grader:
         self.log = self.logs / f"{room.folder.name}.log"
         self.began = self.log.stat().st_size if self.log.exists() else 0
         self.status = None
+        blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM, signal.SIGINT})  # a signal that comes at once
         self.pid = os.fork()
         if self.pid == 0:
-            self._grade(room, scheduler, workers, force, prepare)
+            self._grade(room, scheduler, workers, force, prepare, blocked)
+        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
 
-    def _grade(self, room, scheduler, workers, force, prepare):
+    def _grade(self, room, scheduler, workers, force, prepare, signals):
         code = 70
         try:
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+            signal.pthread_sigmask(signal.SIG_SETMASK, signals)
             os.setsid()
             descriptor = os.open(self.log, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
             os.dup2(descriptor, 1)
             os.dup2(descriptor, 2)
-            signal.signal(signal.SIGTERM, signal.SIG_DFL)
             module = importlib.import_module("autograder.fleet.grade")
             module.BATCH, module.BATCH_SECONDS = 3, 0.3
             importlib.import_module("autograder.gradebook.book").BUSY_SECONDS = 2
@@ -388,7 +392,8 @@ def campaign(name, faults, seed, scratch, counts, problems):
             shutil.copytree(backend.template.folder / ".directrix", lite.folder / ".directrix")
         reference = Reference(lite, scratch)
         apart = ".directrix/apart"  # how test cells run is tried once, not by each round's first grader
-        shutil.copytree(lite.folder / apart, backend.template.folder / apart, dirs_exist_ok=True)
+        if lite is not backend.template:
+            shutil.copytree(lite.folder / apart, backend.template.folder / apart)
         kinds = [kind for kind in FAULTS if (kind != "database server crashed") or backend.server is not None]
         queue = []
         left = faults

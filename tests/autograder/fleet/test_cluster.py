@@ -54,6 +54,7 @@ def two_workers(cluster):
 
 
 def hand_in(room, count, square=RIGHT["square"]):
+    room.configure('c.Directrix.packages = ("numpy",)\n')  # starts quickly
     for number in range(count):
         room.hand_in(
             f"s{number:02d}", {"one": {**RIGHT, "square": square if number % 3 else "def square(x): return 4"}, "two": ADD}

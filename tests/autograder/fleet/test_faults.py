@@ -234,6 +234,31 @@ def test_a_sandbox_that_is_killed_is_started_again_and_the_class_is_graded(big_c
     assert {student.score for student in graded.students} == {6.0}
 
 
+def test_a_process_that_is_killed_from_outside_costs_no_later_cell_its_mark(big_class, monkeypatch):
+    """The cell that it was running is missing then: tests that fail for want of it are no zeros, and the next run mends it."""
+    from autograder.sandbox.session import Session
+
+    real, killed = Session.run_cell, []
+
+    def run_cell(self, source, **options):
+        if "def square" in source and not killed:
+            killed.append(source)
+            signal.pidfd_send_signal(self._process._pidfd, signal.SIGKILL)
+        return real(self, source, **options)
+
+    big_class.hand_in("s1", {"one": RIGHT, "two": ADD})
+    fleet.grade(big_class.course(), "ps1", students=["s0"])  # how test cells run is known then
+    with monkeypatch.context() as patch:
+        patch.setattr(Session, "run_cell", run_cell)
+        graded = fleet.grade(big_class.course(), "ps1", students=["s1"], workers=1).student("s1")
+    marks = points_of(graded)
+    assert (marks["test_square"], marks["test_half"], marks["test_add"]) == (None, 3.0, 1.0)
+    assert "killed from outside" in graded.faults[0]
+    again = fleet.grade(big_class.course(), "ps1", students=["s1"])
+    assert again.failures == ()
+    assert points_of(again.student("s1"))["test_square"] == 2.0
+
+
 def test_a_start_that_was_disturbed_leads_to_no_weaker_level(monkeypatch):
     from autograder.errors import IsolationError
     from autograder.notebook import session
