@@ -6,6 +6,8 @@ attacks on nbgrader, is ``table.py``.
 
 import os
 import subprocess
+import tempfile
+from pathlib import Path
 
 import pytest
 from hostile_attacks import ATTACKS, TESTS
@@ -42,14 +44,15 @@ def graded(made, folder, grader, attacks, around=subprocess.run):
 
 
 @pytest.fixture(scope="module", params=["as this user", "as an ordinary user"])
-def ours(request, made, tmp_path_factory):
-    """The class graded by Directrix, and its room."""
+def ours(request, made):
+    """The class graded by Directrix, and its room: not below the folder of pytest, which every run of it closes to others."""
     around = subprocess.run
     if request.param == "as an ordinary user":
         if os.geteuid() != 0:
             pytest.skip("these tests are being run by an ordinary user as it is")
         around = as_user
-    return graded(made, tmp_path_factory.mktemp("ours"), "ours", EVERYBODY, around)
+    with tempfile.TemporaryDirectory(prefix="directrix-attacks-") as folder:
+        yield graded(made, Path(folder), "ours", EVERYBODY, around)
 
 
 def test_a_right_answer_gets_everything_and_a_wrong_one_nothing(ours):
