@@ -47,6 +47,7 @@ class Crew(Generic[Task, Result]):
     def __init__(self, work: Callable[[Task, int], Result], count: int, keep: Collection[int] = ()) -> None:
         self._work, self._keep = work, frozenset(keep)
         self._members: list[_Member[Task]] = []
+        self._again: deque[Task] = deque()  # of lost workers, for others
         self.unfinished: list[Task] = []  # what workers had when they were ended by close()
         for number in range(max(1, count)):
             self._members.append(_Member(self, number))
@@ -63,18 +64,21 @@ class Crew(Generic[Task, Result]):
             member = self._members.pop()
             self.unfinished += member.given
             member.end()
+        self.unfinished += self._again
+        self._again.clear()
 
     def each(self, tasks: Iterable[Task], patience: float | None = None) -> Iterator[tuple[Task, Result | Lost] | None]:
         """Every task with its result as they come, not in order; ``None`` when nothing came for ``patience`` seconds.
 
-        No more tasks are taken than the workers hold, so memory does not grow with their number.
+        No more tasks are taken than the workers hold, so memory does not grow with their number. Who stops taking may call
+        this again for more: a task that was handed over is done, and what is still with the workers comes then.
         """
-        queue, again = iter(tasks), deque[Task]()
+        queue = iter(tasks)
         tries: dict[int, int] = {}
         while True:
             for most in range(1, AHEAD + 1):  # everybody has something before anybody has more
                 for member in self._members:
-                    self._give(member, queue, again, most)
+                    self._give(member, queue, most)
             busy = {member.line: member for member in self._members if member.given}
             if not busy:
                 return
@@ -84,15 +88,16 @@ class Crew(Generic[Task, Result]):
             for line in ready:
                 member = busy[line]  # type: ignore[index]
                 try:
-                    yield member.given[0], member.line.recv()
-                    member.given.popleft()
+                    result = member.line.recv()
                 except (EOFError, OSError):
-                    yield from self._replace(member, again, tries)
+                    yield from self._replace(member, tries)
+                else:
+                    yield member.given.popleft(), result
 
-    def _give(self, member: _Member[Task], queue: Iterator[Task], again: deque[Task], most: int) -> None:
+    def _give(self, member: _Member[Task], queue: Iterator[Task], most: int) -> None:
         while len(member.given) < most:
-            if again:
-                task = again.popleft()
+            if self._again:
+                task = self._again.popleft()
             else:
                 try:
                     task = next(queue)
@@ -102,16 +107,16 @@ class Crew(Generic[Task, Result]):
             with contextlib.suppress(OSError):  # it has been ended; reading says so
                 member.line.send(task)
 
-    def _replace(self, member: _Member[Task], again: deque[Task], tries: dict[int, int]) -> Iterator[tuple[Task, Lost]]:
+    def _replace(self, member: _Member[Task], tries: dict[int, int]) -> Iterator[tuple[Task, Lost]]:
         """Another worker in the place of a lost one; its tasks are done again."""
         first, *others = member.given
         how = member.end()
         log.warning("a worker process was ended from outside (%s); its submissions are graded by another", how)
         self._members[self._members.index(member)] = _Member(self, member.number)
-        again.extend(others)
+        self._again.extend(others)
         tries[id(first)] = tries.get(id(first), 0) + 1
         if tries[id(first)] < TRIES:
-            again.append(first)
+            self._again.append(first)
         else:
             yield first, Lost(f"the worker processes that had it were ended from outside {TRIES} times ({how})")
 

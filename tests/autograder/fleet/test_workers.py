@@ -1,6 +1,7 @@
 """Worker processes: what they share, what they must not, and what happens when one is killed."""
 
 import fcntl
+import itertools
 import os
 import signal
 import subprocess
@@ -60,6 +61,23 @@ def test_closing_names_what_was_not_finished():
     with Crew(lambda task, number: time.sleep(60), 1) as crew:
         assert next(crew.each([1, 2, 3], patience=0.05)) is None
     assert crew.unfinished == [1, 2]
+
+
+def test_a_task_that_was_handed_over_is_finished():
+    """Its taker may stop there, by an error of its own: the task is neither unfinished nor given the next one's answer."""
+    with Crew(lambda task, number: task * task, 1) as crew:
+        assert next(crew.each([2, 3, 4])) == (2, 4)
+        assert [pair for pair in crew.each([5]) if pair is not None] == [(3, 9), (5, 25)]
+        assert next(crew.each([6])) == (6, 36)
+    assert crew.unfinished == []
+
+
+def test_what_a_lost_worker_had_is_unfinished_where_nobody_takes_it_up():
+    """The third worker that 9 ends has 3 as well."""
+    with Crew(lambda task, number: os._exit(1) if task == 9 else task, 1) as crew:
+        taken = list(itertools.islice(crew.each([9, 1, 2, 3]), 3))
+        assert [(task, type(result)) for task, result in taken] == [(1, int), (2, int), (9, Lost)]
+    assert crew.unfinished == [3]
 
 
 def test_a_worker_holds_neither_locks_nor_files_of_its_parent(tmp_path):
