@@ -34,7 +34,8 @@ def numbers(exercise: str, student: str = "", data: str = YOURS) -> np.random.Ge
     exercise : str
         The id of the exercise.
     student : str
-        The student's id in the course. Empty: the name on a JupyterHub; where there is none, the numbers that all share.
+        The student's id in the course. Empty: the name on a JupyterHub, which in grading is whose work it is; where there is
+        none, the numbers that all share.
     data : str
         The data set.
     """

@@ -101,10 +101,11 @@ class Context:
             return hidden_seed(secret, self.student, exercise, submission)
 
         script = self.course.scripts(self.row, {self.notebook: self.master}, open_session)[self.notebook]
-        apart = Apart(script, lambda: open_session.pair(files), functools.partial(open_session.kernel, files))
+        kernel = functools.partial(open_session.kernel, files, student=self.student)
+        apart = Apart(script, lambda: open_session.pair(files, self.student), kernel)
         return run(
             built,
-            lambda: open_session(files),
+            lambda: open_session(files, self.student),
             own.of_student(exercises.get, self.master, self.student),
             seed,
             uses_check=self.master.uses_check,

@@ -161,10 +161,11 @@ class _Work:
         opener = self.plan.open_session
         apart = None
         if script is not None:
-            apart = Apart(script, lambda: opener.pair(files), functools.partial(opener.kernel, files))
+            kernel = functools.partial(opener.kernel, files, student=self.student)
+            apart = Apart(script, lambda: opener.pair(files, self.student), kernel)
         ran = run(
             built,
-            lambda: self.plan.open_session(files),
+            lambda: opener(files, self.student),
             own.of_student(self.plan.exercises, master, self.student),
             seed,
             uses_check=master.uses_check,

@@ -38,6 +38,14 @@ def limits(timeout: float | None, *, exercises: bool) -> Limits:
     return own if timeout is None else dataclasses.replace(own, cell_cpu=timeout)
 
 
+def environment(student: str) -> dict[str, str]:
+    """What a notebook finds in its environment: nbgrader's word, and the id of the student as on a JupyterHub.
+
+    So numbers of one's own (:mod:`autograder.personal`) are in grading what they were on the hub, where nobody typed an id.
+    """
+    return {**ENVIRONMENT, "JUPYTERHUB_USER": student} if student else ENVIRONMENT
+
+
 @dataclasses.dataclass(frozen=True)
 class Opener:
     """Opens sessions in one running sandbox; ``level`` is the isolation that it has."""
@@ -47,19 +55,19 @@ class Opener:
     level: str
     withhold: tuple[str, ...] = ()
 
-    def __call__(self, files: Mapping[str, bytes]) -> Any:
-        """A session that finds these files, without the modules that learners may not import."""
-        return self.box.open(files=files, limits=self.bounds, environment=ENVIRONMENT, withhold=self.withhold)
+    def __call__(self, files: Mapping[str, bytes], student: str = "") -> Any:
+        """A session that finds these files, without the modules that learners may not import; ``student`` hands in there."""
+        return self.box.open(files=files, limits=self.bounds, environment=environment(student), withhold=self.withhold)
 
-    def pair(self, files: Mapping[str, bytes]) -> tuple[Any, Any]:
+    def pair(self, files: Mapping[str, bytes], student: str = "") -> tuple[Any, Any]:
         """Such a session, and one beside it for test cells, which finds all modules."""
-        return self.box.pair(files=files, limits=self.bounds, environment=ENVIRONMENT, withhold=self.withhold)
+        return self.box.pair(files=files, limits=self.bounds, environment=environment(student), withhold=self.withhold)
 
-    def kernel(self, files: Mapping[str, bytes], sources: Sequence[str | None]) -> KernelRun:
+    def kernel(self, files: Mapping[str, bytes], sources: Sequence[str | None], student: str = "") -> KernelRun:
         """A whole notebook in a real kernel, in a sandbox of its own with the same files, modules and limits."""
         return run_notebook(
-            sources, files, policy=self.box.policy, limits=self.bounds, environment=ENVIRONMENT, withhold=self.withhold
-        )
+            sources, files, policy=self.box.policy, limits=self.bounds, environment=environment(student), withhold=self.withhold
+        )  # fmt: skip
 
     def trusted(self, files: Mapping[str, bytes]) -> Any:
         """A session for the instructor's own code: it finds all modules."""

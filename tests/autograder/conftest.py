@@ -115,6 +115,41 @@ def surfaces_template(tmp_path_factory):
     return folder
 
 
+SWEPT_BACKWARDS = """def linear_sweep(u, w, curve, direction, d):
+    direction = np.asarray(direction, float)
+    if not direction.any():
+        raise ValueError("no direction")
+    return curve(u) - np.asarray(w)[..., None] * d * direction / np.linalg.norm(direction)
+"""
+TYPED = {"ada": "ada", "bob": "ada", "eve": ""}  # on a JupyterHub nobody needs to type anything
+
+
+@pytest.fixture(scope="session")
+def own_numbers_template(tmp_path_factory):
+    """A2, numbers of one's own in it: Ada typed her id, Bob typed Ada's, Eve none; all sweep backwards."""
+    from autograder import authoring
+
+    folder = tmp_path_factory.mktemp("courses") / "own"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PATH", f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}")
+        authoring.new_course(folder, ("A2",))
+        authoring.release(folder, "A2")
+    room = Classroom(folder, "A2")
+
+    def typed(id):
+        def change(nb):
+            for cell in nb["cells"]:
+                named = cell["metadata"].get("nbgrader", {}).get("grade_id")
+                text = SWEPT_BACKWARDS if named == "linear_sweep" else "".join(cell["source"])
+                cell["source"] = text.replace('student = ""', f'student = "{id}"')
+
+        return change
+
+    for student, id in TYPED.items():
+        room.hand_in(student, {"linear-sweep": typed(id)})
+    return room
+
+
 class Classroom:
     """A course folder in which tests hand in."""
 

@@ -4,38 +4,16 @@ import re
 
 import pytest
 
-from autograder import authoring, personal
+from autograder import personal
 from autograder.catalogue import shipped
 from autograder.fleet import Course, grade
 
-BACKWARDS = """def linear_sweep(u, w, curve, direction, d):
-    direction = np.asarray(direction, float)
-    if not direction.any():
-        raise ValueError("no direction")
-    return curve(u) - np.asarray(w)[..., None] * d * direction / np.linalg.norm(direction)
-"""
-
 
 @pytest.fixture(scope="module")
-def graded(tmp_path_factory, classroom):
-    """Ada typed her id, Bob typed Ada's; both sweep backwards."""
-    folder = tmp_path_factory.mktemp("own") / "course"
-    authoring.new_course(folder, ("A2",))
-    authoring.release(folder, "A2")
-    room = classroom(folder, "A2")
-
-    def typed(id):
-        def change(nb):
-            for cell in nb["cells"]:
-                named = cell["metadata"].get("nbgrader", {}).get("grade_id")
-                text = BACKWARDS if named == "linear_sweep" else "".join(cell["source"])
-                cell["source"] = text.replace('student = ""', f'student = "{id}"')
-
-        return change
-
-    for student in ("ada", "bob"):
-        room.hand_in(student, {"linear-sweep": typed("ada")})
-    report = grade(Course(folder), "A2", workers=1)
+def graded(own_numbers_template, tmp_path_factory):
+    """Ada typed her id, Bob typed Ada's, Eve none; all sweep backwards."""
+    room = own_numbers_template.copy(tmp_path_factory.mktemp("own") / "course")
+    report = grade(room.course(), "A2", workers=1)
     return room, {one.student: one for one in report.students}
 
 
@@ -52,22 +30,38 @@ def salt(room):
 def test_each_is_judged_with_the_numbers_of_the_folders_name(graded):
     """The mistake is named for both; only the note tells that an id was not the student's."""
     _, reports = graded
-    for student in ("ada", "bob"):
+    for student in ("ada", "bob", "eve"):
         (cell,) = [one for one in reports[student].cells if one.name == "check_linear_sweep"]
         assert (cell.mistake, cell.points) == ("backwards", 3.0)
-    assert not any("typed" in note for note in reports["ada"].notes)
+    assert not any("typed" in note for student in ("ada", "eve") for note in reports[student].notes)
     (note,) = [note for note in reports["bob"].notes if "typed" in note]
     assert "'ada'" in note
     assert "the numbers of bob" in note
 
 
+def numbers_of(room, student):
+    """The line that the notebook prints with that student's numbers."""
+    rng = personal.generator(personal.seed(salt(room), student), "linear_sweep", "yours")
+    return f"Your direction is {rng.integers(1, 6, 3)} and your d is {rng.integers(2, 7)}"
+
+
 def test_a_notebook_shows_in_the_sandbox_what_it_showed_at_home(graded):
     """Bob's cell shows the numbers of the id that he typed: the cell is his, and decides nothing."""
     room, _ = graded
-    rng = personal.generator(personal.seed(salt(room), "ada"), "linear_sweep", "yours")
+    assert numbers_of(room, "ada") != numbers_of(room, "eve")
+    for student, whose in (("ada", "ada"), ("bob", "ada")):
+        assert numbers_of(room, whose) in shown(room, student)
+
+
+def test_where_no_id_was_typed_it_shows_what_it_showed_on_a_hub(graded, monkeypatch):
+    """A hub tells the notebook who is logged in; the sandbox tells it whose work it is. The card is about the same numbers."""
+    room, _ = graded
+    monkeypatch.setenv("JUPYTERHUB_USER", "eve")
+    monkeypatch.setattr(personal, "_here", {"salt": salt(room), "student": ""})
+    rng = personal.numbers("linear_sweep", "")
     line = f"Your direction is {rng.integers(1, 6, 3)} and your d is {rng.integers(2, 7)}"
-    assert line in shown(room, "ada")
-    assert line in shown(room, "bob")
+    assert line == numbers_of(room, "eve")
+    assert line in shown(room, "eve")
 
 
 def test_the_seed_that_public_numbers_come_from_is_none_of_the_hidden_ones(graded):
