@@ -1,12 +1,14 @@
 """Boundary curves once more: do they meet, mixed by cubics, and given as Bezier polygons.
 
-A little over 400 lines, for the three share their edges, and each stands here whole with its mistakes.
+Over 400 lines, for the three share their edges, and each stands here whole with its mistakes.
 """
 
 import directrix as dx
 import numpy as np
 
 from autograder.exercise import exercise
+
+from .nets import elevate_u
 
 # S4 --------------------------------------------------------------------------------------------------------------------------
 
@@ -325,6 +327,23 @@ def coons_bezier_net(c0, c1, d0, d1):
     Returns the net, an array of shape (m, n, 3), first index along u.
     """
     return _net(c0, c1, d0, d1)
+
+
+@coons_bezier_net.built_from(elevate_u)
+def _(c0, c1, d0, d1, elevate_u):
+    """Needs no other task; but who raises degrees need not know the shares: each of the three parts has degree 1 across."""
+
+    def rows(net, count):
+        for _ in range(count - len(net)):
+            net = elevate_u(net)
+        return net
+
+    def columns(net, count):
+        return np.swapaxes(rows(np.swapaxes(net, 0, 1), count), 0, 1)
+
+    m, n = len(c0), len(d0)
+    flat = np.array([[c0[0], c1[0]], [c0[-1], c1[-1]]], dtype=float)
+    return columns(np.stack([c0, c1], axis=1), n) + rows(np.stack([d0, d1]), m) - columns(rows(flat, m), n)
 
 
 def _parts(c0, c1, d0, d1, s=None, t=None):

@@ -1,6 +1,6 @@
 """Turning: a screw sweep, an exact NURBS net of revolution, and what a line becomes when it is turned.
 
-A little over 400 lines: each exercise stands here whole, its reference, its data and its mistakes one below the other.
+Over 400 lines: each exercise stands here whole, its reference, its data and its mistakes one below the other.
 """
 
 import directrix as dx
@@ -153,11 +153,17 @@ def evaluated(answer):
     return dx.NurbsPatch(P, weights, len(P), 3, knots_w=knots)
 
 
+def _arcs(profile, h):
+    """One piece along u, the four quarter turns along w."""
+    return (0.0, 1.0), np.linspace(0.0, 1.0, 5)
+
+
 @exercise(
     points=6,
     title="Exact surface of revolution",
     kind="net",
     judged_as=evaluated,
+    spans=_arcs,
     accept={"same set": 1.0, "relabelled": 0.5, "other start": 0.5, "close": 0.8},
 )
 def nurbs_revolve(profile, h):

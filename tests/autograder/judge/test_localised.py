@@ -49,6 +49,27 @@ def test_spans_and_edges_of_a_patch_in_pieces(where, said):
     assert "work it out by hand" not in verdict.part("look")
 
 
+@pytest.mark.parametrize(
+    ("columns", "said"),
+    [
+        ([7], "Along w it is right in every span but the last."),
+        ([3], "Along w it is right in every span but number 2 of 4."),
+        ([5, 7], "Along w it is right in every span but the last 2."),
+    ],
+)
+def test_spans_of_an_answer_that_is_a_net(columns, said):
+    """A net that is judged as the surface it makes: corners of the square about some quarter turns are off, so these are."""
+    revolve = shipped().find("nurbs_revolve")
+
+    def answer(profile, h):
+        P, weights, knots = revolve.reference(profile, h)
+        P = P.copy()
+        P[:, columns] *= 0.9
+        return P, weights, knots
+
+    assert said in judged(revolve, answer).part("right")
+
+
 def test_wrong_in_two_spans_apart_is_not_said_to_be_one_run():
     """Only one run of spans is told; else nothing of spans."""
     verdict = judged(PATCH, spline(lambda u, w, m, n: np.maximum(np.abs(u - 0.5) - 0.5 + 0.5 / m, 0)))
