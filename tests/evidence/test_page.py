@@ -17,6 +17,30 @@ def test_the_page_is_not_written_by_hand():
     assert PAGE.read_text("utf-8") == rendered(KEPT)
 
 
+def test_all_three_campaigns_are_there_with_command_date_and_version():
+    assert list(KEPT) == ["mistakes", "styles", "mutants"]
+    for name, campaign in KEPT.items():
+        assert campaign["command"].split()[:3] == ["python", "tests/evidence/campaign.py", name]
+        assert campaign["date"]
+        assert " at " in campaign["version"]
+
+
+def test_the_campaigns_were_long_and_found_what_must_be_nothing():
+    """Numbers that the campaign wrote; whether the judge still is as good, the tests beside this one ask with fewer seeds."""
+    mistakes, styles, mutants = (campaign["totals"] for campaign in KEPT.values())
+    judged = (mistakes["random seeds"] + 1) * mistakes["exercises"]
+    assert mistakes["exercises"] == styles["exercises"] == len(list(shipped()))
+    assert mistakes["random seeds"] >= 50
+    assert mistakes["reference: full marks"] == mistakes["stub: no marks"] == f"{judged} of {judged}"
+    assert mistakes["mistakes in all"] == mistakes["named on the released data"] == mistakes["named under every random seed"]
+    assert styles["seeds"] >= 200
+    assert styles["fewest for one exercise"] >= 5
+    assert styles["judgements"] == styles["right answers"] * styles["seeds"]
+    assert styles["refused"] == 0
+    assert mutants["wrong"] >= 2000
+    assert mutants["passed all the same"] == mutants["refused all the same"] == 0
+
+
 def outcome(opinion, *, passed=False, told=""):
     return Outcome("cylinder", "loops", "sign", 3, "u", "-u", opinion, 1.0, "", passed, told=told)
 
