@@ -230,7 +230,7 @@ class _Watched:
             self._cpu[key] = max(self._cpu.get(key, 0.0), process.cpu)
             held, now = held + process.rss, now + process.cpu + process.children_cpu
         most = self.limits.memory + OWN
-        if held > most and sum(proportional(process.pid) or process.rss for process in processes) > most:
+        if held > most and sum(proportional(process) for process in processes) > most:
             raise _Over(Ended("memory", messages.memory(messages.CELL, self.limits.memory)))
         if max(now, sum(self._cpu.values())) > self.limits.notebook_cpu:
             raise _Over(Ended("timeout", messages.notebook_time(self.limits.notebook_cpu), "notebook"))
@@ -254,13 +254,17 @@ class Seen:
     rss: int
 
 
-def proportional(pid: int) -> int:
-    """Resident bytes of a process, those that it shares divided among those that share them; 0 if the kernel does not say."""
-    with contextlib.suppress(OSError, ValueError):
-        for line in Path(f"/proc/{pid}/smaps_rollup").read_text("ascii").splitlines():
+def proportional(process: Seen) -> int:
+    """Resident bytes of a process, those that it shares divided among those that share them; none of one that has ended."""
+    try:
+        for line in Path(f"/proc/{process.pid}/smaps_rollup").read_text("ascii").splitlines():
             if line.startswith("Pss:"):
                 return int(line.split()[1]) * 1024
-    return 0
+    except (FileNotFoundError, ProcessLookupError):
+        return 0
+    except OSError:  # it may not be read: then what is shared counts for each
+        pass
+    return process.rss
 
 
 def tree(pid: int) -> Iterator[Seen]:

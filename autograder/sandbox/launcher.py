@@ -6,6 +6,7 @@ not have a /proc.
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import json
 import os
@@ -13,7 +14,7 @@ import platform
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO
 
@@ -82,10 +83,27 @@ def enter(
     binary = bubblewrap(which)
     if os.geteuid() == 0:
         return _as_root(seen, binary, walls, command, descriptor, errors)
-    return subprocess.Popen(
-        [binary, *walls(), "--", *command], env=seen.environment, pass_fds=[descriptor], stdin=subprocess.DEVNULL,
-        stdout=errors, stderr=errors, cwd="/",
-    )  # fmt: skip
+    with _unseen(walls()) as told:
+        return subprocess.Popen(
+            [binary, "--args", str(told), "--", *command], env=seen.environment, pass_fds=[descriptor, told],
+            stdin=subprocess.DEVNULL, stdout=errors, stderr=errors, cwd="/",
+        )  # fmt: skip
+
+
+@contextlib.contextmanager
+def _unseen(options: list[str]) -> Iterator[int]:
+    """An open file that tells bwrap its options; on its command line, /proc/1/cmdline would show a learner where all this lies.
+
+    bwrap closes it once it is read. In its mount namespace, /proc/1/mountinfo still names what was mounted.
+    """
+    told = os.memfd_create("options")
+    try:
+        with open(told, "wb", closefd=False) as file:
+            file.writelines(os.fsencode(option) + b"\0" for option in options)
+        os.lseek(told, 0, os.SEEK_SET)
+        yield told
+    finally:
+        os.close(told)
 
 
 def options(seen: View, level: str) -> list[str]:
@@ -151,14 +169,15 @@ def _as_root(
         places |= {str(path): f"{STAGE}/bwrap/{path.name}" for path in companions}
         program = f"{STAGE}/bwrap/{root.name}/{Path(binary).relative_to(root)}"
     seen.binds = [(places[source], place) for source, place in seen.binds]
-    command = [program, *walls(), "--", *inside]
-    request = json.dumps({"stage": STAGE, "places": places, "uid": _free_uid(), "command": command})
     start = "import sys; sys.path.insert(0, sys.argv[1]); from autograder.sandbox.rootprep import main; main()"
     package_root = str(Path(__file__).resolve().parents[2])
-    process = subprocess.Popen(
-        [sys.executable, "-I", "-S", "-c", start, package_root], env=seen.environment,
-        pass_fds=[control], stdin=subprocess.PIPE, stdout=errors, stderr=errors, cwd="/",
-    )  # fmt: skip
+    with _unseen(walls()) as told:
+        command = [program, "--args", str(told), "--", *inside]
+        request = json.dumps({"stage": STAGE, "places": places, "uid": _free_uid(), "command": command})
+        process = subprocess.Popen(
+            [sys.executable, "-I", "-S", "-c", start, package_root], env=seen.environment,
+            pass_fds=[control, told], stdin=subprocess.PIPE, stdout=errors, stderr=errors, cwd="/",
+        )  # fmt: skip
     assert process.stdin is not None
     try:
         process.stdin.write(request.encode())
