@@ -12,8 +12,8 @@ from autograder.comparison.answers import Reason
 from autograder.comparison.symmetry import SURFACE_NAMES
 
 ROOM = Path(messages.__file__).parent
-ROOMS = ("comparison", "diagnosis")
-SOURCES = [ROOM / "judge.py", ROOM / "card.py", *(path for room in ROOMS for path in sorted((ROOM / room).glob("*.py")))]
+ROOMS = ("comparison", "diagnosis", "card")
+SOURCES = [ROOM / "judge.py", *(path for room in ROOMS for path in sorted((ROOM / room).glob("*.py")))]
 WRITTEN = "\n".join(path.read_text("utf-8") for path in [*SOURCES, ROOM / "messages.py"])
 
 

@@ -1,0 +1,141 @@
+"""The figure of a card: both surfaces beside each other, as plain plotly JSON that is checked before it leaves."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import copy
+import functools
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from directrix.plot import compare
+from directrix.plot.palette import CONFIG
+
+from autograder.messages import say
+from autograder.result import Figure, Verdict
+
+PLOTLY = "application/vnd.plotly.v1+json"
+FIGURE_KINDS = frozenset({"surface", "scatter3d"})
+FIGURE_NUMBERS = 400_000
+
+
+def figure(verdict: Verdict) -> dict[str, Any] | None:
+    """The comparison figure of a verdict as plain plotly JSON, or None where it has nothing to show.
+
+    Arrays are typed arrays of float32 in base64. A right answer is drawn alone: one scene instead of two equal ones, since a
+    browser keeps only so many.
+    """
+    if verdict.figure is None:
+        return None
+    same = verdict.outcome == "passed" and verdict.tier == "identical" and verdict.figure.yours is not None
+    if same and verdict.figure.yours is verdict.figure.expected:
+        return copy.deepcopy(_drawn_once(_Itself(verdict.figure)))
+    return _drawn(verdict.figure, same=same)
+
+
+@dataclass(frozen=True, eq=False)
+class _Itself:
+    """A figure as a key: equal to the very same object only."""
+
+    figure: Figure
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Itself) and other.figure is self.figure
+
+    def __hash__(self) -> int:
+        return id(self.figure)
+
+
+@functools.lru_cache(maxsize=128)
+def _drawn_once(key: _Itself) -> dict[str, Any]:
+    """What all who are right get to see, drawn once: the judge hands out one object for it."""
+    return _drawn(key.figure, same=True)
+
+
+def _drawn(drawn: Figure, *, same: bool) -> dict[str, Any]:
+    built = compare(
+        drawn.parameters,
+        _numbers(drawn.expected),
+        None if drawn.yours is None else _numbers(drawn.yours),
+        worst=None if same else drawn.worst,
+        size=drawn.size,
+        title=say("figure.layer", layer=drawn.layer) if drawn.layer else None,
+        same=same,
+        letters=drawn.names or None,
+    )
+    return validated(built)
+
+
+def figure_bundle(verdict: Verdict) -> dict[str, Any] | None:
+    """The figure as a mime bundle, its description as the text, or None."""
+    built = figure(verdict)
+    if built is None:
+        return None
+    return {"text/plain": f"[figure: {built['layout']['meta']['alt']}]", PLOTLY: {**built, "config": dict(CONFIG)}}
+
+
+def validated(built: Mapping[str, Any]) -> dict[str, Any]:
+    """The figure itself, if it is what a card may show: surfaces and lines in space, finite numbers or gaps, bounded.
+
+    Raises
+    ------
+    ValueError
+        That says what is wrong with it.
+    """
+    if set(built) != {"data", "layout"} or not isinstance(built["data"], list) or not isinstance(built["layout"], dict):
+        raise ValueError("a figure has data (a list) and layout (a dict), and nothing else")
+    for trace in built["data"]:
+        if not isinstance(trace, dict) or trace.get("type") not in FIGURE_KINDS:
+            raise ValueError(f"a figure holds traces of the kinds {', '.join(sorted(FIGURE_KINDS))} only")
+    count = sum(_counted(value) for value in (built["data"], built["layout"]))
+    if count > FIGURE_NUMBERS:
+        raise ValueError(f"a figure holds at most {FIGURE_NUMBERS} numbers; got {count}")
+    return dict(built)
+
+
+def _counted(value: Any) -> int:
+    """How many numbers a JSON value holds; refuses what is neither finite nor a gap, and anything that is not JSON."""
+    if value is None or isinstance(value, bool):
+        return 0
+    if isinstance(value, str):
+        if len(value) > 4000:
+            raise ValueError("a string in a figure is too long")
+        return 0
+    if isinstance(value, int | float):
+        if not math.isfinite(value):
+            raise ValueError("a number in a figure is not finite")
+        return 1
+    if isinstance(value, list):
+        return sum(map(_counted, value))
+    if isinstance(value, dict):
+        if "bdata" in value:
+            return _counted_typed(value)
+        if not all(isinstance(key, str) for key in value):
+            raise ValueError("a key in a figure is not a string")
+        return sum(map(_counted, value.values()))
+    raise ValueError(f"a figure holds plain JSON only; got {type(value).__name__}")
+
+
+def _counted_typed(value: Mapping[str, Any]) -> int:
+    if not set(value) <= {"bdata", "dtype", "shape"} or value.get("dtype") != "f4" or not isinstance(value["bdata"], str):
+        raise ValueError("a typed array in a figure has dtype f4, bdata and perhaps shape")
+    try:
+        data = np.frombuffer(base64.b64decode(value["bdata"], validate=True), "<f4")
+    except (binascii.Error, ValueError):
+        raise ValueError("a typed array in a figure is not base64 of whole float32 numbers") from None
+    if np.isinf(data).any():
+        raise ValueError("a number in a figure is not finite")
+    shape = value.get("shape", str(data.size))
+    if not re.fullmatch(r"\d+(, \d+)*", shape) or math.prod(map(int, shape.split(", "))) != data.size:
+        raise ValueError("the shape of a typed array in a figure does not fit its numbers")
+    return int(data.size)
+
+
+def _numbers(nested: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Nested lists with None for what is not finite, as an array with NaN."""
+    return np.asarray(nested, dtype=np.float64)  # None becomes NaN
