@@ -17,9 +17,10 @@ from typing import Any
 
 import sqlalchemy as sa
 from sqlalchemy.dialects import postgresql, sqlite
-from sqlalchemy.engine import URL, Connection, Engine, make_url
+from sqlalchemy.engine import Connection
 
 from autograder.errors import CourseError
+from autograder.gradebook.engine import engine_of, parsed
 from autograder.gradebook.reading import notebook_row
 from autograder.gradebook.records import AssignmentRow, NotebookMarks, NotebookRow, Penalty, Record, Standing
 from autograder.gradebook.tables import (
@@ -35,7 +36,6 @@ from autograder.gradebook.tables import (
 )
 from autograder.notebook.marks import Mark
 
-BUSY_SECONDS = 60
 CHUNK = 400  # keys in one IN (...), well under SQLite's limit of variables
 DEFAULT_COURSE = "default_course"
 
@@ -55,10 +55,10 @@ class Gradebook:
     """
 
     def __init__(self, url: str) -> None:
-        parsed = _parsed(url)
-        if parsed.get_backend_name() == "sqlite" and parsed.database and not Path(parsed.database).is_file():
-            raise CourseError(f"there is no gradebook {parsed.database}; release an assignment first: directrix release A1")
-        self.engine = _engine(parsed)
+        place = parsed(url)
+        if place.get_backend_name() == "sqlite" and place.database and not Path(place.database).is_file():
+            raise CourseError(f"there is no gradebook {place.database}; release an assignment first: directrix release A1")
+        self.engine = engine_of(place)
 
     def close(self) -> None:
         """Close all connections."""
@@ -356,52 +356,3 @@ def seconds_late(
 def _chunked(connection: Connection, query: Any, column: Any, keys: Sequence[str]) -> Iterable[Any]:
     for start in range(0, len(keys), CHUNK):
         yield from connection.execute(query.where(column.in_(keys[start : start + CHUNK])))
-
-
-def _parsed(url: str) -> URL:
-    try:
-        parsed = make_url(url)
-    except sa.exc.ArgumentError:  # not repeated: a password may stand in it
-        raise CourseError(
-            "c.CourseDirectory.db_url is no database URL; write sqlite:///PATH or postgresql+psycopg://..."
-        ) from None
-    if parsed.get_backend_name() not in ("sqlite", "postgresql"):
-        raise CourseError(f"a gradebook lies in SQLite or PostgreSQL; c.CourseDirectory.db_url names {parsed.drivername}")
-    return parsed
-
-
-def _engine(url: URL) -> Engine:
-    """An engine whose transactions wait a minute for those of others, and no longer.
-
-    SQLite's take the write lock at once, so that two writers never deadlock. Those of PostgreSQL lock rows as they come to
-    them; who writes single rows, as formgrader does, is never part of a deadlock.
-    """
-    if url.get_backend_name() == "postgresql":
-        return _postgresql(url)
-    engine = sa.create_engine(url, connect_args={"timeout": BUSY_SECONDS})
-
-    @sa.event.listens_for(engine, "connect")
-    def _(connection: Any, record: Any) -> None:
-        connection.isolation_level = None  # pysqlite must not begin transactions on its own
-
-    @sa.event.listens_for(engine, "begin")
-    def _(connection: Connection) -> None:
-        connection.exec_driver_sql("BEGIN IMMEDIATE")
-
-    return engine
-
-
-def _postgresql(url: URL) -> Engine:
-    try:
-        engine = sa.create_engine(url, pool_pre_ping=True)  # a server that was started again costs a connection, not the run
-    except ModuleNotFoundError as error:
-        raise CourseError(
-            f"a gradebook in PostgreSQL needs {error.name}: pip install 'directrix[postgres]', and write the URL in "
-            "c.CourseDirectory.db_url as postgresql+psycopg://..."
-        ) from None
-
-    @sa.event.listens_for(engine, "begin")
-    def _(connection: Connection) -> None:
-        connection.exec_driver_sql(f"SET LOCAL lock_timeout = '{BUSY_SECONDS}s'")
-
-    return engine

@@ -138,7 +138,7 @@ class Grader:
             os.dup2(descriptor, 2)
             module = importlib.import_module("autograder.fleet.grade")
             module.BATCH, module.BATCH_SECONDS = 3, 0.3
-            importlib.import_module("autograder.gradebook.book").BUSY_SECONDS = 2
+            importlib.import_module("autograder.gradebook.engine").BUSY_SECONDS = 2
             if prepare is not None:
                 prepare()
             graded = fleet.grade(room.course(), room.assignment, workers=workers, force=force, scheduler=scheduler)

@@ -8,7 +8,7 @@ import pytest
 from autograder import feedback, fleet
 from autograder.errors import CourseError
 from autograder.gradebook import Gradebook, NotebookMarks, Record
-from autograder.gradebook import book as module
+from autograder.gradebook import engine as module
 from autograder.notebook.marks import Mark
 
 RIGHT = {"square": "def square(x): return x * x", "half": "def half(x): return x / 2"}
