@@ -11,8 +11,9 @@ from directrix.curves.arc import Arc, Circle
 from directrix.curves.line import Line
 from directrix.errors import ConversionError, NumberError
 from directrix.quadric import Quadric
+from directrix.surfaces.grids import components
 from directrix.surfaces.revolution import CircularSweep
-from directrix.surfaces.surface import Surface, components
+from directrix.surfaces.surface import Surface
 from directrix.transform import turn
 
 MINUS_Y = (0.0, -1.0, 0.0)  # normal of a circle in the xz-plane that rises from +x towards +z

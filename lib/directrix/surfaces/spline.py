@@ -22,9 +22,10 @@ from directrix.checks import Array
 from directrix.curves.rational import lift
 from directrix.errors import DomainError
 from directrix.knots import Knots, KnotVector, knot_vector
+from directrix.surfaces.grids import row_blocks
 from directrix.surfaces.rational import cartesian, lower
 from directrix.surfaces.support import FEW, ScatteredSums, compiled_row, row_of
-from directrix.surfaces.surface import Orders, Surface, row_blocks
+from directrix.surfaces.surface import Orders, Surface
 from directrix.surfaces.tensor import Grid, planes, window
 from directrix.transform import Transform
 

@@ -9,7 +9,7 @@ derivatives at once, sharing their basis functions), ``_mesh`` (the same on a gr
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,13 +21,16 @@ from directrix.differential import Curvature, FirstForm, SecondForm
 from directrix.errors import OrderError, ShapeError
 from directrix.frozen import Frozen
 from directrix.quadrature import integrate_square
+from directrix.surfaces import grids
+from directrix.surfaces.grids import components as components
+from directrix.surfaces.grids import full, is_open_mesh, rows_of
+from directrix.surfaces.grids import row_blocks as row_blocks
 from directrix.surfaces.nearest import Nearest, nearest
 
 if TYPE_CHECKING:
     from directrix.transform import Transform
 
 Orders = Sequence[tuple[int, int]]
-BLOCK = 6000  # parameters worked on at a time where much is computed for each: what stays in a processor's cache
 FIRST = ((0, 0), (1, 0), (0, 1))
 SECOND = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
 
@@ -91,10 +94,10 @@ class Surface(Frozen):
         shape = (*(u.shape if u.shape == w.shape else checks.broadcast(u=u, w=w)), 3)
         if 0 in shape:
             return [np.empty(shape) for _ in orders]
-        if _is_open_mesh(u, w):
+        if is_open_mesh(u, w):
             grid = (u.size, w.size, 3)
-            return [_full(value, grid).reshape(shape) for value in self._mesh(u.ravel(), w.ravel(), orders)]
-        return [_full(value, shape) for value in self._jet(u, w, orders)]
+            return [full(value, grid).reshape(shape) for value in self._mesh(u.ravel(), w.ravel(), orders)]
+        return [full(value, shape) for value in self._jet(u, w, orders)]
 
     def __call__(self, u: ArrayLike, w: ArrayLike) -> Array:
         """Points of the surface, shape np.broadcast_shapes(u.shape, w.shape) + (3,).
@@ -130,13 +133,13 @@ class Surface(Frozen):
         """
         u, w = checks.parameter("u", u), checks.parameter("w", w)
         shape = checks.broadcast(u=u, w=w)
-        if _is_open_mesh(u, w) and 0 not in shape:
+        if is_open_mesh(u, w) and 0 not in shape:
             return self._normals_on_mesh(u.ravel(), w.ravel()).reshape(*shape, 3)
-        if math.prod(shape) <= 2 * BLOCK:
+        if math.prod(shape) <= 2 * grids.BLOCK:
             return self._normals(u, w, self._evaluate(u, w, FIRST))
         result = np.moveaxis(np.empty((3, *shape)), 0, -1)
         for rows in row_blocks(shape):
-            part = _rows_of(u, rows, shape), _rows_of(w, rows, shape)
+            part = rows_of(u, rows, shape), rows_of(w, rows, shape)
             result[rows] = self._normals(*part, self._evaluate(*part, FIRST))
         return result
 
@@ -146,8 +149,8 @@ class Surface(Frozen):
         result = np.empty((3, u.size, w.size)).transpose(1, 2, 0)
         for rows in row_blocks((u.size, w.size)):
             here = u[rows, None]
-            full = (len(here), w.size, 3)
-            result[rows] = self._normals(here, w[None], [np.broadcast_to(value, full) for value in jet(rows)])
+            shape = (len(here), w.size, 3)
+            result[rows] = self._normals(here, w[None], [np.broadcast_to(value, shape) for value in jet(rows)])
         return result
 
     def _normals(self, u: Array, w: Array, jet: Sequence[Array]) -> Array:
@@ -366,7 +369,7 @@ class Swapped(Surface):
 
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
         turned = self.surface._mesh(w, u, [(nw, nu) for nu, nw in orders])
-        return [np.swapaxes(_full(value, (w.size, u.size, 3)), 0, 1) for value in turned]
+        return [np.swapaxes(full(value, (w.size, u.size, 3)), 0, 1) for value in turned]
 
     def swap(self) -> Surface:
         """The surface that was swapped."""
@@ -375,38 +378,6 @@ class Swapped(Surface):
     def breaks(self) -> tuple[Array, Array]:
         """Those of the other surface, exchanged."""
         return self.surface.breaks()[::-1]
-
-
-def components(x: Array | float, y: Array | float, z: Array | float) -> Array:
-    """Three coordinates that broadcast against each other as one array (..., 3)."""
-    result = np.empty((*np.broadcast_shapes(np.shape(x), np.shape(y), np.shape(z)), 3))
-    result[..., 0], result[..., 1], result[..., 2] = x, y, z
-    return result
-
-
-def _is_open_mesh(u: Array, w: Array) -> bool:
-    """Whether the parameters are a grid of all u against all w: (n, 1) against (1, m), or one of them a single number."""
-    if u.size == 1 or w.size == 1:
-        return True
-    return u.ndim == 2 and u.shape[1] == 1 and (w.ndim == 1 or (w.ndim == 2 and w.shape[0] == 1))
-
-
-def _full(value: Array, shape: tuple[int, ...]) -> Array:
-    """The value as a writable array of this shape: as it is, or broadcast and copied."""
-    if value.shape == shape and value.flags.writeable:
-        return value
-    return np.array(np.broadcast_to(value, shape))
-
-
-def row_blocks(shape: tuple[int, ...]) -> Iterator[slice]:
-    """Slices of the first axis that hold about BLOCK parameters each."""
-    step = max(1, BLOCK * shape[0] // math.prod(shape))
-    return (slice(start, start + step) for start in range(0, shape[0], step))
-
-
-def _rows_of(given: Array, rows: slice, shape: tuple[int, ...]) -> Array:
-    """The part of a parameter array that belongs to these rows of the full shape; all of it, if it has one row for all."""
-    return given[rows] if given.ndim == len(shape) and len(given) == shape[0] > 1 else given
 
 
 def _part_of(breaks: Array, start: float, end: float) -> Array:

@@ -49,7 +49,7 @@ def small_blocks(monkeypatch):
     """Every number of points counts as many, and blocks are small, the last one not full."""
     monkeypatch.setattr(spline, "FEW", 0)
     monkeypatch.setattr(support, "BLOCK", 7)
-    monkeypatch.setattr("directrix.surfaces.surface.BLOCK", 20)
+    monkeypatch.setattr("directrix.surfaces.grids.BLOCK", 20)
 
 
 @fixed
