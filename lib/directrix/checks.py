@@ -232,7 +232,7 @@ def inside(name: str, value: Any) -> float:
 def broadcast(**parameters: Array) -> tuple[int, ...]:
     """The common shape of parameter arrays."""
     try:
-        return np.broadcast_shapes(*(given.shape for given in parameters.values()))
+        return np.broadcast(*parameters.values()).shape
     except ValueError:
         shapes = " and ".join(f"{name} of shape {given.shape}" for name, given in parameters.items())
         names = list(parameters)
