@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from directrix import checks
-from directrix.errors import ShapeError
 from directrix.plot import palette, traces
-from directrix.plot.sampling import LETTERS, Array, bounds, deviation, grid_normals, size_of
+from directrix.plot.sampling import LETTERS, Array, axes_of, bounds, deviation, grid_normals, points_on, size_of
 from directrix.plot.scene import CORNER, VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
 
 TOWARDS = np.array(CORNER) / np.linalg.norm(CORNER)  # the reader, before the figure is turned
@@ -85,13 +84,13 @@ def comparison(
     letters: Sequence[str] | None = None,
 ) -> dict[str, Any]:
     """:func:`compare` with its arrays still arrays."""
-    axes = _axes(parameters)
+    axes = axes_of(parameters)
     called = tuple(letters) if letters is not None else LETTERS[len(axes)]
-    right = _points("expected", expected, axes)
+    right = points_on("expected", expected, axes)
     if yours is None or same:
-        shown, name = (right, names[0]) if yours is None else (_points("yours", yours, axes), names[1])
+        shown, name = (right, names[0]) if yours is None else (points_on("yours", yours, axes), names[1])
         return _alone(axes, shown, name, title, same, called)
-    left = _points("yours", yours, axes)
+    left = points_on("yours", yours, axes)
     off = deviation(right, left) / (size or size_of(right))
     place = _worst(axes, off, worst)
     left, far = _within_reach(right, left)
@@ -365,29 +364,6 @@ def _views(scenes: tuple[str, ...], corner: tuple[float, float, float]) -> dict[
         "xanchor": "left", "yanchor": "top", "pad": {"l": 6, "t": 8}, "bgcolor": palette.CLEAR, "bordercolor": palette.GRID,
         "font": {"size": 11, "color": palette.INK},
     }  # fmt: skip
-
-
-def _axes(parameters: Sequence[ArrayLike]) -> list[Array]:
-    if not isinstance(parameters, list | tuple) or len(parameters) not in (1, 2):
-        raise ShapeError(
-            "a comparison takes the parameters of a curve or of a surface, a list of 1 or 2 arrays; got "
-            + (f"{len(parameters)} of them" if isinstance(parameters, list | tuple) else type(parameters).__name__)
-        )
-    axes = [checks.real("parameters", axis) for axis in parameters]
-    for axis in axes:
-        if axis.ndim != 1 or not axis.size:
-            raise ShapeError(f"each axis of parameters must be a list of numbers, shape (n,); got {axis.shape}", got=axis.shape)
-    return axes
-
-
-def _points(name: str, given: ArrayLike, axes: list[Array]) -> Array:
-    points = checks.real(name, given)
-    shape = (*(len(axis) for axis in axes), 3)
-    if points.shape != shape:
-        raise ShapeError(
-            f"{name} must have shape {shape}, one point for each of the parameters given; got {points.shape}", got=points.shape
-        )
-    return np.where(np.isfinite(points).all(axis=-1, keepdims=True), points, np.nan)
 
 
 def _at(place: Array, called: tuple[str, ...]) -> str:

@@ -1,4 +1,4 @@
-"""Evaluates what is to be drawn on a mesh, and says clearly what is wrong when it cannot be drawn.
+"""Evaluates what is to be drawn on a mesh, or takes what was sampled, and says clearly what is wrong when it cannot be drawn.
 
 Whatever is callable may be drawn: a form of the library, a lambda, a learner's own function. So nothing is assumed of it but
 that it takes parameters in [0, 1] and returns points along the last axis.
@@ -7,12 +7,13 @@ that it takes parameters in [0, 1] and returns points along the last axis.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from directrix import checks
 from directrix.errors import CurveError, GeometryError, ShapeError
 
 Array = NDArray[np.float64]
@@ -143,3 +144,40 @@ def _described(value: Any) -> str:
         return f"an array of shape {value.shape} and type {value.dtype}"
     text = repr(value)
     return f"{text if len(text) <= 60 else text[:57] + '...'} ({type(value).__name__})"
+
+
+def axes_of(parameters: Sequence[ArrayLike]) -> list[Array]:
+    """The parameters of a sampling, one array (n,) for each.
+
+    Raises
+    ------
+    ShapeError
+        If they are not those of a curve or of a surface.
+    """
+    if not isinstance(parameters, list | tuple) or len(parameters) not in (1, 2):
+        raise ShapeError(
+            "a comparison takes the parameters of a curve or of a surface, a list of 1 or 2 arrays; got "
+            + (f"{len(parameters)} of them" if isinstance(parameters, list | tuple) else type(parameters).__name__)
+        )
+    axes = [checks.real("parameters", axis) for axis in parameters]
+    for axis in axes:
+        if axis.ndim != 1 or not axis.size:
+            raise ShapeError(f"each axis of parameters must be a list of numbers, shape (n,); got {axis.shape}", got=axis.shape)
+    return axes
+
+
+def points_on(name: str, given: ArrayLike, axes: list[Array]) -> Array:
+    """Points given on these axes; NaN where a coordinate is not finite.
+
+    Raises
+    ------
+    ShapeError
+        If there is not one point for each of the parameters.
+    """
+    points = checks.real(name, given)
+    shape = (*(len(axis) for axis in axes), 3)
+    if points.shape != shape:
+        raise ShapeError(
+            f"{name} must have shape {shape}, one point for each of the parameters given; got {points.shape}", got=points.shape
+        )
+    return np.where(np.isfinite(points).all(axis=-1, keepdims=True), points, np.nan)
