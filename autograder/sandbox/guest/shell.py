@@ -243,6 +243,7 @@ class Shell(InteractiveShell):
         self.recorder = Recorder()
         self.number = 0
         self.ran_into: type[BaseException] | None = None
+        self.told: tuple[Any, dict[str, Any]] = (None, {})  # the last error that was shown: its class, and what was said of it
         self.read: tuple[str, str] | None = None  # the source of the cell that is to be run, and what it is in Python
         super().__init__(**options)  # type: ignore[no-untyped-call]
         self.input_transformer_manager = Plainly()
@@ -290,7 +291,17 @@ class Shell(InteractiveShell):
             value = str(evalue)
         except BaseException:  # a learner's own __str__
             value = "(its message cannot be shown)"
-        self.recorder.error(str(etype.__name__), value, [str(line) for line in stb])
+        lines = [str(line) for line in stb]
+        self.told = etype, {"ename": str(etype.__name__), "evalue": value, "traceback": lines}
+        self.recorder.error(str(etype.__name__), value, lines)
+
+    def _format_exception_for_storage(self, exception: BaseException, *more: Any, **options: Any) -> dict[str, Any]:
+        """What IPython's history keeps of an error: the traceback that was shown. Formatting it again takes as long as once."""
+        kind, told = self.told
+        if kind is type(exception):
+            return told
+        kept: dict[str, Any] = super()._format_exception_for_storage(exception, *more, **options)  # type: ignore[no-untyped-call]
+        return kept
 
     def is_cell(self, filename: str) -> bool:
         """Whether code of that file name came from a cell."""
@@ -299,7 +310,7 @@ class Shell(InteractiveShell):
     def run(self, source: str, size: int, count: int) -> str:
         """Run one cell, recording what it shows; returns its status."""
         self.recorder.begin(size, count)
-        self.ran_into = None
+        self.ran_into, self.told = None, (None, {})
         self.number = self.execution_count
         if self.loop is None or self.loop.is_closed():
             self.loop = asyncio.new_event_loop()

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 from autograder.sandbox import system
-from autograder.sandbox.guest import child, confine, seccomp
+from autograder.sandbox.guest import child, confine, seccomp, tracebacks
 from autograder.sandbox.guest.shell import Shell
 
 NUMPY = ("numpy.random", "numpy.linalg", "numpy.polynomial", "numpy.ma")  # numpy loads these when they are first used
@@ -142,19 +142,26 @@ def _warm_up(shell: Shell, preload: list[str]) -> None:
         for name in (*NUMPY, *SHOWING, *preload):
             with contextlib.suppress(Exception):
                 importlib.import_module(name)
-        _take_arrays_as_they_are(sys.modules.get("_plotly_utils.basevalidators"))
+        if "plotly" in sys.modules:
+            _take_arrays_as_they_are()
         for figure in _figures(sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")):
             with contextlib.suppress(Exception):
                 shell.rehearse_showing(figure())
-        shell.rehearse("1 / 0")
+        tracebacks.prepare()
+        for source in ("1 / 0", *tracebacks.NUMPY):
+            shell.rehearse(source)
         if "directrix.plot" in sys.modules:  # the commonest mistakes: a traceback through the library reads its files
             shell.rehearse("__import__('directrix.plot').plot.view(lambda u, w: u + w)")
 
 
-def _take_arrays_as_they_are(validators: Any) -> None:
+def _take_arrays_as_they_are() -> None:
     """plotly asks narwhals of every array whether it is a table of pandas, polars or the like, which takes longer than
     to copy it. What is exactly an array of numpy is none, and narwhals would hand it back as it came.
     """
+    try:  # by itself plotly loads it with the first figure only
+        validators: Any = importlib.import_module("_plotly_utils.basevalidators")
+    except ImportError:
+        return
     narwhals = getattr(validators, "nw", None)
     ask = getattr(narwhals, "from_native", None)
     if narwhals is None or ask is None:  # another version of plotly

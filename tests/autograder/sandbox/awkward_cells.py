@@ -131,7 +131,7 @@ ASYNC = {
     "its result": "await late",
     "gather": "await asyncio.gather(f(), asyncio.sleep(0, 'slept'))",
     "error after await": "async def g():\n    await asyncio.sleep(0)\n    raise ValueError('late')\nawait g()",
-    "asyncio.run": "asyncio.run(f())",
+    "asyncio.run": "kept = f()  # or a warning appears in whichever later cell it is collected\nasyncio.run(kept)",
     "await outside async": "def h(): await f()",
     "asyncio timeout": "await asyncio.wait_for(asyncio.sleep(9), 0.01)",
 }
