@@ -14,13 +14,15 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from autograder.comparison.answers import Array
+
+if TYPE_CHECKING:
+    from scipy.spatial import KDTree
 
 Evaluator: TypeAlias = Callable[[Array], Array]  # parameters (N, n) -> points (N, 3)
 SEEDS = 5
@@ -46,6 +48,8 @@ class Cloud:
 
 def cloud(parameters: Array, points: Array, cell: float) -> Cloud:
     """Points that were evaluated already."""
+    from scipy.spatial import KDTree  # loaded when it is used: a course without exercises never does
+
     finite = np.isfinite(points).all(axis=1)
     return Cloud(parameters[finite], points[finite], KDTree(points[finite]), cell)
 

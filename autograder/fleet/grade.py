@@ -327,7 +327,10 @@ class _Run:
         drawing = threading.Thread(target=_load_drawing, daemon=True)
         if exercises:
             drawing.start()
-        with opened(exercises.values(), course.packages, self.required, course.timeout, course.withhold) as open_session:
+        draws = any(master.draws for master in self.masters.values())
+        with opened(
+            exercises.values(), course.packages, self.required, course.timeout, course.withhold, draws=draws
+        ) as open_session:
             self.level = open_session.level
             if exercises:
                 drawing.join()
@@ -375,7 +378,8 @@ def _fitted(plan: Plan, workers: int) -> tuple[Plan, int]:
 
 
 def _load_drawing() -> None:
-    """Load what cards are drawn with while the sandbox starts: forked workers then share it, instead of each loading it."""
+    """Load what judging and cards take while the sandbox starts: forked workers then share it, instead of each loading it."""
+    importlib.import_module("scipy.spatial")
     go: Any = importlib.import_module("plotly.graph_objects")
     go.Figure([go.Surface(), go.Scatter3d(), go.Scatter()], {"scene": {}}).to_dict()
 

@@ -104,6 +104,12 @@ class Master:
         rows = [[getattr(cell, name) for name in MasterCell.__dataclass_fields__] for cell in self.cells.values()]
         return hashlib.sha256(json.dumps([self.notebook, rows]).encode()).hexdigest()
 
+    @property
+    def draws(self) -> bool:
+        """Whether a cell of the instructor's names plotly, or directrix, which draws with it."""
+        sources = [*(cell.source for cell in self.cells.values()), *(source for _, source in self.by_text)]
+        return any("plotly" in source or "directrix" in source for source in sources)
+
     def beside(self, released: Path) -> Master:
         """The same with metadata and attachments read from the instructor's file, if there is such a file."""
         try:

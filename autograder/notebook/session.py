@@ -18,11 +18,14 @@ ENVIRONMENT = {"NBGRADER_EXECUTION": "autograde"}
 BASIC = ("numpy", "plotly")
 
 
-def needs(exercises: Iterable[Exercise], packages: Packages) -> Policy:
-    """What the sandbox offers: numpy, plotly and what exercises and course allow; all that is installed without exercises."""
+def needs(exercises: Iterable[Exercise], packages: Packages, *, draws: bool = True) -> Policy:
+    """What the sandbox offers: numpy, plotly and what exercises and course allow; all that is installed without exercises.
+
+    Whether notebooks that pose no exercise draw with plotly decides only when it is loaded: once for all, or by who imports it.
+    """
     posed = list(exercises)
     if packages == "all" or not (posed or packages):
-        return Policy(packages="all")
+        return Policy(packages="all") if posed or draws else Policy(packages="all", preload=())
     allowed = [package for exercise in posed for package in exercise.allow]
     return Policy(packages=tuple(dict.fromkeys([*BASIC, *packages, *allowed])))
 
@@ -76,11 +79,17 @@ class Opener:
 
 @contextlib.contextmanager
 def opened(
-    exercises: Iterable[Exercise], packages: Packages, level: str | None, timeout: float | None, withhold: Iterable[str] = ()
+    exercises: Iterable[Exercise],
+    packages: Packages,
+    level: str | None,
+    timeout: float | None,
+    withhold: Iterable[str] = (),
+    *,
+    draws: bool = True,
 ) -> Iterator[Opener]:
     """Start the sandbox of an assignment; yields what opens a session in it, given the files that the notebook finds.
 
-    ``withhold`` names modules that test cells may import and learners may not.
+    ``withhold`` names modules that test cells may import and learners may not; ``draws`` is as in :func:`needs`.
 
     ``level`` None requires A or, where a machine gives no namespaces to a notebook of its own, A-. Which one it is stands in
     every report. Sessions may be opened from any thread.
@@ -92,7 +101,7 @@ def opened(
     """
     posed = list(exercises)
     withheld = tuple(withhold)
-    bounds, policy = limits(timeout, exercises=bool(posed)), needs(posed, packages)
+    bounds, policy = limits(timeout, exercises=bool(posed)), needs(posed, packages, draws=draws)
     if withheld and policy.packages != "all":
         policy = dataclasses.replace(policy, packages=(*policy.packages, *withheld))
     with _sandbox(policy, level) as box:
