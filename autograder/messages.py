@@ -1,4 +1,4 @@
-"""Everything the judge says to a learner: one catalogue, so that a translation is one file.
+"""Everything the judge says to a learner: one catalogue, so that a translation is one file, of more than 400 lines.
 
 A translation replaces the texts and keeps the keys and the names in braces. Hints of known mistakes are not here: they stand
 beside the mistake in the exercise. The tone: first what is right, then what is wrong, where, and one thing to look at; the

@@ -13,6 +13,7 @@ taken off its time, in its favour; ours pays for its own. Under stock nbgrader `
 course of exercises nbgrader only executes the notebooks. In the ordinary course it grades, and the tables of both are compared.
 The bare sandbox runs the same cells in the same kind of process, as many at a time, and reads, judges, writes nothing.
 Times depend on the machine and on who else uses it; the ratios are what is meant to be read.
+More than 400 lines, for a row is to be read beside the ones that it is compared with, all made in the same way.
 """
 
 from __future__ import annotations

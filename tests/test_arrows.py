@@ -177,3 +177,15 @@ def test_an_arrow_that_points_back_is_found(tmp_path):
         for _, target in imports(path, package):
             found += [(room, target)] if target.split(".")[1] not in allowed(LIBRARY, room) else []
     assert found == [("checks", "directrix.plot.view"), ("errors", "directrix.surfaces.known")]
+
+
+def test_a_long_file_says_why():
+    """More than 400 lines need a reason in the first docstring. The source of a notebook is as long as its notebook."""
+    silent = []
+    for folder in ("autograder", "lib", "assignments", "benchmarks", "course", "docs", "tests"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            text = path.read_text("utf-8")
+            if text.count("\n") > 400 and path.name != "notebook.py":
+                said = ast.get_docstring(ast.parse(text)) or ""
+                silent += [] if "400 lines" in said or "a long one" in said else [str(path.relative_to(ROOT))]
+    assert silent == []

@@ -5,6 +5,7 @@ attack learns or keeps it *tells*: prints, writes into an open folder and sends 
 grades cannot overlook it. All are harmless by construction: they reach for decoys, in a throw-away copy of a course.
 
 The cell begins with ``PRELUDE``, which says what an attacker may be taken to know: where the course lies, who he or she is.
+More than 400 lines: a list, to be read as one, so that it is seen what is missing.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 ``abe`` has handed in and is graded before an attacker comes; ``zoe`` is graded after. Nothing is believed that the attacker's
 notebook says of itself, but for secrets: those are random words, made anew for each room, and whoever can say one has seen it.
+More than 400 lines, for the rooms of the graders are compared line by line: what one looks at, all do.
 """
 
 from __future__ import annotations

@@ -20,9 +20,9 @@ EXERCISES = list(shipped())
 
 @pytest.fixture(scope="module")
 def found(tmp_path_factory):
-    """The outcomes of 150 mutants, drawn with a seed that the long campaign does not use; by the script itself."""
+    """The outcomes of 80 mutants, drawn with a seed that the long campaign does not use; by the script itself."""
     kept = tmp_path_factory.mktemp("mutants") / "outcomes.jsonl"
-    command = [HERE / "campaign.py", "mutants", "--count", "150", "--seed", "150", "--jobs", "1", "--keep", kept]
+    command = [HERE / "campaign.py", "mutants", "--count", "80", "--seed", "150", "--jobs", "1", "--keep", kept]
     done = subprocess.run([sys.executable, *map(str, command)], capture_output=True, text=True, timeout=900, check=False)
     outcomes = [json.loads(line) for line in kept.read_text("utf-8").splitlines()] if kept.exists() else []
     return done, [Outcome(**{**outcome, "keys": tuple(outcome["keys"])}) for outcome in outcomes]
@@ -31,7 +31,7 @@ def found(tmp_path_factory):
 def test_no_wrong_answer_passes_and_no_right_one_is_refused(found):
     done, outcomes = found
     assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-2000:]
-    assert len(outcomes) == 150
+    assert len(outcomes) == 80
     assert not [outcome for outcome in outcomes if outcome.passed_wrongly or outcome.refused_wrongly]
 
 
@@ -39,9 +39,9 @@ def test_most_changes_are_wrong_and_of_many_kinds(found):
     """Else nothing would have been shown."""
     _, outcomes = found
     wrong = [outcome for outcome in outcomes if outcome.opinion in ("differs", "endless")]
-    assert len(wrong) >= 110
+    assert len(wrong) >= 60
     assert len({outcome.kind for outcome in wrong}) >= 12
-    assert len({outcome.exercise for outcome in wrong}) >= 40
+    assert len({outcome.exercise for outcome in wrong}) >= 30
 
 
 def test_few_messages_say_neither_what_nor_where(found):

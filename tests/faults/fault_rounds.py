@@ -11,6 +11,7 @@ ends with 1 if anything differed.
 
 Full disks are tried on a small file system in memory and read-only folders as mounts where root runs this; by file size limits
 and permissions elsewhere.
+More than 400 lines: the faults, the class that meets them and what is compared afterwards make sense together only.
 """
 
 import argparse

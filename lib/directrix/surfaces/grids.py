@@ -9,7 +9,7 @@ import numpy as np
 
 from directrix.checks import Array
 
-BLOCK = 6000  # parameters worked on at a time where much is computed for each: what stays in a processor's cache
+BLOCK = 8000  # parameters worked on at a time where much is computed for each: what stays in a processor's cache
 
 
 def components(x: Array | float, y: Array | float, z: Array | float) -> Array:

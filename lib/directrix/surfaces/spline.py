@@ -10,7 +10,7 @@ honest way.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
@@ -34,8 +34,7 @@ SMALL = 8  # points of a grid for which local support beats the matrix products
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
-Sums = Callable[[tuple[int, int]], Array]  # order -> that derivative of the blended coefficients, as planes
-
+Sums = dict[tuple[int, int], Array]  # order -> that derivative of the blended coefficients, as planes
 
 Made = TypeVar("Made", bound="SplinePatch")
 
@@ -98,27 +97,29 @@ class SplinePatch(Surface):
 
     def _jet(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
         if np.broadcast(u, w).size <= FEW:
-            return self._points(self._sums.few(u, w, self._below(orders)).__getitem__, orders)
+            return self._points(self._sums.few(u, w, self._below(orders)), orders)
         u, w = np.broadcast_arrays(u, w)
         out = np.empty((len(orders), 3, u.size))
         for part, found in self._sums.blocks(u.ravel(), w.ravel(), self._below(orders)):
-            self._points(found.__getitem__, orders, out[..., part])
+            self._points(found, orders, out[..., part])
         return [value.T.reshape(*u.shape, 3) for value in out]
 
     def _mesh(self, u: Array, w: Array, orders: Orders) -> Sequence[Array]:
         if u.size * w.size <= SMALL:
             return self._jet(u[:, None], w[None], orders)
-        grid = self._grid(u, w, self._below(orders))
+        below = self._below(orders)
+        grid = self._grid(u, w, below)
         out = np.empty((len(orders), 3, u.size, w.size))
         for part in row_blocks((u.size, w.size)):
-            self._points(partial(grid, part), orders, out[:, :, part])
+            self._points(grid(part, below), orders, out[:, :, part])
         return [value.transpose(1, 2, 0) for value in out]
 
     def _mesh_rows(self, u: Array, w: Array, orders: Orders) -> Callable[[slice], Sequence[Array]]:
         if u.size * w.size <= SMALL:
             return super()._mesh_rows(u, w, orders)
-        grid = self._grid(u, w, self._below(orders))
-        return lambda part: self._points(partial(grid, part), orders)
+        below = self._below(orders)
+        grid = self._grid(u, w, below)
+        return lambda part: self._points(grid(part, below), orders)
 
     def _grid(self, u: Array, w: Array, orders: Orders) -> Grid:
         """What gives derivatives of the blended coefficients on rows of the grid of u (p,) and w (q,)."""
@@ -183,9 +184,9 @@ class BSplinePatch(SplinePatch):
 
     def _points(self, sums: Sums, orders: Orders, out: Array | None = None) -> list[Array]:
         if out is None:
-            return [np.moveaxis(sums(order), 0, -1) for order in orders]
+            return [np.moveaxis(sums[order], 0, -1) for order in orders]
         for order, place in zip(orders, out, strict=True):
-            place[...] = sums(order)
+            place[...] = sums[order]
         return [np.moveaxis(place, 0, -1) for place in out]
 
     def with_net(self, net: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None) -> BSplinePatch:
@@ -260,7 +261,7 @@ class NurbsPatch(SplinePatch):
         return cast("Orders", lower(orders))  # pairs in, pairs out
 
     def _points(self, sums: Sums, orders: Orders, out: Array | None = None) -> list[Array]:
-        return cartesian({order: sums(order) for order in self._below(orders)}, orders, out)
+        return cartesian(sums, orders, out)
 
     def with_net(
         self, net: Array, weights: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None

@@ -27,7 +27,8 @@ class Grid:
     """Σ_i Σ_j f_i(u) g_j(w) c_ij and its derivatives on the grid of u (p,) and w (q,), as planes, any rows of it at a time.
 
     The product along w is done once, c Gᵀ, and some rows of F times it are some rows of the grid. Of a spline only few f_i are
-    not zero on neighbouring rows, and only these are multiplied. A grid much wider than long begins with F c instead.
+    not zero on neighbouring rows, and only these are multiplied. A grid much wider than long begins with F c instead. The arrays
+    of one call are written over by the next: a block that is worked on at once stays in a processor's cache.
 
     Parameters
     ----------
@@ -39,7 +40,7 @@ class Grid:
     Examples
     --------
     >>> square = Grid(np.array([[[0.0, 0.0], [0.0, 1.0]]]), {0: np.eye(2)}, {0: np.eye(2)})
-    >>> square(slice(1, 2), (0, 0)).tolist()
+    >>> square(slice(1, 2), [(0, 0)])[0, 0].tolist()
     [[[0.0, 1.0]]]
     """
 
@@ -58,16 +59,22 @@ class Grid:
         self._u = {nu: values @ coefficients for nu, values in rows.items()} if self._wide else rows
         self._w = turned if self._wide else {nw: coefficients @ values for nw, values in turned.items()}
 
-    def __call__(self, part: slice, order: tuple[int, int]) -> Array:
-        """Some rows of a derivative, (d, rows, q)."""
-        along_u, along_w = self._u[order[0]], self._w[order[1]]
-        if self._wide:
-            return along_u[:, part] @ along_w
-        if self._reach is None:
-            return along_u[part] @ along_w
-        first, last = self._reach
-        near = slice(first[part].min(), last[part].max())
-        return along_u[part, near] @ along_w[:, near]
+        self._again: dict[tuple[int, int], Array] = {}
+
+    def __call__(self, part: slice, orders: Orders) -> dict[tuple[int, int], Array]:
+        """Some rows of the derivatives, each (d, rows, q); good until the next call."""
+        near = slice(None)
+        if self._reach is not None and not self._wide:
+            near = slice(self._reach[0][part].min(), self._reach[1][part].max())
+        return {order: self._product(part, near, order) for order in orders}
+
+    def _product(self, part: slice, near: slice, order: tuple[int, int]) -> Array:
+        f, g = self._u[order[0]][..., part, near], self._w[order[1]][..., near, :]
+        place = self._again.get(order)
+        if place is None or place.shape[1] < f.shape[-2]:
+            self._again[order] = place = np.matmul(f, g)
+            return place
+        return np.matmul(f, g, out=place[:, : f.shape[-2]])
 
 
 def sum_on_grid(along_u: Sequence[Array], along_w: Sequence[Array], p: int, q: int) -> Array:
@@ -133,7 +140,11 @@ class TensorPatch(Surface):
         rows = {nu: self._functions_u(u, nu) for nu in {nu for nu, _ in orders}}
         columns = {nw: self._functions_w(w, nw) for nw in {nw for _, nw in orders}}
         grid = Grid(self._planes, rows, columns)
-        return lambda part: [grid(part, order).transpose(1, 2, 0) for order in orders]
+        def derivatives(part: slice) -> list[Array]:
+            found = grid(part, orders)
+            return [found[order].transpose(1, 2, 0) for order in orders]
+
+        return derivatives
 
 
 def window(u0: float, u1: float, w0: float, w1: float) -> tuple[float, float, float, float]:

@@ -214,3 +214,27 @@ def test_without_a_certificate_nobody_gets_in(cluster, tmp_path, monkeypatch):
     monkeypatch.setattr(importlib.import_module("autograder.fleet.connection"), "PATIENCE", 2.0)
     with dask.config.set(values), pytest.raises(CourseError, match="no Dask scheduler answers"), connected(cluster.address):
         pass
+
+
+def test_a_scheduler_that_is_killed_stops_the_run_and_keeps_what_is_done(two_workers, ordinary, tmp_path, monkeypatch):
+    """The next run goes on to what a clean one gives. The last test here, since the cluster has no scheduler any more."""
+    monkeypatch.setattr(importlib.import_module("autograder.fleet.connection"), "PATIENCE", 3.0)  # it may come back so long
+    hand_in(ordinary, 12, SLOW)
+    ordinary.course().secret()
+    local = ordinary.copy(tmp_path / "local")
+
+    def kill(done, total, student):
+        two_workers.started[0].kill()
+
+    with pytest.raises(
+        CourseError, match=r"^the Dask scheduler is gone \(.*\); what was graded so far is kept, and the next run"
+    ):
+        fleet.grade(ordinary.course(), "ps1", scheduler=two_workers.address, progress=kill)
+    kept = {name.split("/")[0] for name in ordinary.autograded()}
+    assert 0 < len(kept) < 12
+    assert list(ordinary.folder.rglob("*.directrix-*")) == []
+    again = fleet.grade(ordinary.course(), "ps1", workers=4)
+    assert {student.student for student in again.students if student.status == "unchanged"} == kept
+    assert fleet.grade(local.course(), "ps1", workers=4).failures == again.failures == ()
+    assert ordinary.tables() == local.tables()
+    assert ordinary.autograded() == local.autograded()
