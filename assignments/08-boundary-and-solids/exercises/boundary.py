@@ -1,7 +1,7 @@
 """Surfaces through boundary curves: the Coons patch, the Ferguson patch, and the twists that lead from one to the other.
 
 Four curves of a Coons patch have to meet. So random ones start from four random corners, and each curve runs between two.
-A few lines over 400, for the three share their data and their formulas.
+A few more than 400 lines, for the three share their data and their formulas.
 """
 
 import directrix as dx

@@ -1,6 +1,7 @@
 """Runs cells as a Jupyter kernel would, without a kernel: an IPython shell that records what a cell shows, in order.
 
 Text, displays, results and errors are kept in the order in which they came (a kernel regroups stdout and stderr).
+More than 400 lines: the recorder, and the shell all of whose hooks end in it.
 """
 
 from __future__ import annotations
