@@ -79,7 +79,10 @@ class Surface(Frozen):
         return self._jet(u[:, None], w[None, :], orders)
 
     def _mesh_rows(self, u: Array, w: Array, orders: Orders) -> Callable[[slice], Sequence[Array]]:
-        """What gives the derivatives on some rows of the grid; override it to prepare once what all rows share."""
+        """What gives the derivatives on some rows of the grid, good until it is called again.
+
+        Override it to prepare once what all rows share.
+        """
         return lambda part: self._mesh(u[part], w, orders)
 
     def breaks(self) -> tuple[Array, Array]:

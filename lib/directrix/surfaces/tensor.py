@@ -27,8 +27,8 @@ class Grid:
     """Σ_i Σ_j f_i(u) g_j(w) c_ij and its derivatives on the grid of u (p,) and w (q,), as planes, any rows of it at a time.
 
     The product along w is done once, c Gᵀ, and some rows of F times it are some rows of the grid. Of a spline only few f_i are
-    not zero on neighbouring rows, and only these are multiplied. A grid much wider than long begins with F c instead. The arrays
-    of one call are written over by the next: a block that is worked on at once stays in a processor's cache.
+    not zero on neighbouring rows, and only these are multiplied. A grid much wider than long begins with F c instead. The
+    arrays of one call are written over by the next: memory that was just used is still in a processor's cache.
 
     Parameters
     ----------
@@ -58,7 +58,6 @@ class Grid:
         self._reach = reach
         self._u = {nu: values @ coefficients for nu, values in rows.items()} if self._wide else rows
         self._w = turned if self._wide else {nw: coefficients @ values for nw, values in turned.items()}
-
         self._again: dict[tuple[int, int], Array] = {}
 
     def __call__(self, part: slice, orders: Orders) -> dict[tuple[int, int], Array]:
