@@ -71,7 +71,7 @@ def python(wheel, tmp_path_factory):
 def test_an_installed_wheel_judges_and_grades_from_another_folder(python, tmp_path):
     """Make a course, release it, hand in the sample class's first two notebooks, grade them in the sandbox."""
     where = run(python, "-c", "import autograder, directrix; print(autograder.__file__, directrix.__file__)", cwd=tmp_path)
-    assert str(ROOT) not in where
+    assert f"{ROOT}/" not in where
     verdict = run(
         python, "-c",
         "import numpy as np; from autograder import judge_function\n"
