@@ -254,7 +254,7 @@ def _advice(level: str) -> list[str]:
         return [
             "macOS has no namespaces, no Landlock and no system call filter: nothing is graded on it. Write and check here; "
             "grade in a Linux virtual machine (Lima, UTM, Multipass) that sees the course folder, or on a server.",
-            "A container of a desktop program is a Linux virtual machine too; give it the options that containers need:",
+            IMAGE,
             IN_CONTAINERS,
         ]
     if sys.platform != "linux":
@@ -262,6 +262,8 @@ def _advice(level: str) -> list[str]:
             "Windows has nothing that could hold a notebook here: nothing is graded on it. Write and check here; grade in "
             "WSL2: `wsl --install`, and in its Ubuntu `apt install bubblewrap python3-venv`, then `pip install directrix`.",
             "Keep the course folder inside WSL (`~/course`, not `/mnt/c`): permissions hold only there.",
+            IMAGE,
+            IN_CONTAINERS,
         ]
     found = ["Level A needs bubblewrap, user namespaces and Landlock (Linux 5.13 or newer)."]
     for path, (forbids, advice) in SETTINGS.items():
@@ -274,9 +276,14 @@ def _advice(level: str) -> list[str]:
     return found
 
 
+IMAGE = (
+    "Or in a container, which is a Linux virtual machine on your system too: the Containerfile at the top of Directrix's "
+    "repository makes an image for grading, docs/container.md there says how to run it."
+)
 IN_CONTAINERS = (
-    "In a container, allow user namespaces and mounts (Docker, Podman: --security-opt seccomp=unconfined "
-    "--security-opt apparmor=unconfined --security-opt systempaths=unconfined) and be an ordinary user in it, or grade outside."
+    "In a container, allow user namespaces and mounts (Docker: --security-opt seccomp=unconfined --security-opt "
+    "apparmor=unconfined --security-opt systempaths=unconfined; Podman: --security-opt unmask=ALL instead of the last) and "
+    "be an ordinary user in it, or grade outside."
 )
 
 
