@@ -17,7 +17,7 @@ from tests.autograder.conftest import Classroom
 RIGHT = {
     "square": "def square(x): return x * x",
     "half": "print(get_ipython().kernel.__class__.__name__)\ndef half(x): return x / 2",
-    "code_answer": "%%bash\necho from bash > made.txt; cat made.txt",
+    "code_answer": "%%bash\necho from bash > made.txt; cat made.txt; echo for $JUPYTERHUB_USER",
     "why": "It is so.",
 }
 # In the learner's own kernel this makes every assertion pass; it also says so with a forged result.
@@ -58,9 +58,13 @@ def outputs(room, student, name):
 
 
 def test_outputs_are_a_kernels(graded):
+    """It knows whose work it is, and so do the programs that it starts."""
     ours, _, _ = graded
     assert outputs(ours, "ada", "half") == "IPythonKernel\n"
-    assert outputs(ours, "ada", "code_answer") == "from bash\n"
+    assert [outputs(ours, student, "code_answer") for student in ("ada", "eve")] == [
+        "from bash\nfor ada\n",
+        "from bash\nfor eve\n",
+    ]
     assert (ours.folder / "autograded/ada/ps1/made.txt").read_text() == "from bash\n"
 
 
