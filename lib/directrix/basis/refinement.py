@@ -88,6 +88,48 @@ def raised(knots: Array, order: int, points: Array) -> tuple[Array, Array]:
     return values, np.stack(result)
 
 
+def bezier_extraction(knots: Array, order: int) -> Array:
+    """What makes Bezier points of a spline's control points, for each span of the domain: shape (m - k + 1, k, k).
+
+    Entry [i] times control points i, ..., i + k - 1 is the k Bezier points of the piece on [t_(i+k-1), t_(i+k)]: `blossom` at
+    all spans at once. All entries are at least 0 and each row sums to 1; those of an empty span are 0 (M. J. Borden,
+    M. A. Scott, J. A. Evans, T. J. R. Hughes, Int. J. Numer. Meth. Engng 87 (2011) 15-47).
+
+    Examples
+    --------
+    >>> bezier_extraction(np.array([0.0, 0, 0, 1, 2, 2, 2]), 3).tolist()[0]
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.5, 0.5]]
+    """
+    degree = order - 1
+    first = np.flatnonzero(knots[degree:-order] < knots[order : len(knots) - degree])
+    start, end = knots[first + degree, None], knots[first + order, None]
+    result = np.zeros((len(knots) - 2 * order + 1, order, order))
+    for row in range(order):  # arguments: the end of the span ``row`` times, else its start
+        near = np.tile(np.eye(order), (len(first), 1, 1))
+        for r in range(1, order):
+            low = first[:, None] + np.arange(r, order)
+            share = ((end if r <= row else start) - knots[low]) / (knots[low + order - r] - knots[low])
+            near[:, r:] = (1 - share)[..., None] * near[:, r - 1 : -1] + share[..., None] * near[:, r:]
+        result[first, row] = near[:, degree]
+    return result
+
+
+def derived(knots: Array, order: int, points: Array) -> tuple[Array, Array]:
+    """Knots and control points, along axis 0, of the derivative of a spline: order - 1, one point and two knots less.
+
+    P'_i = (k - 1) (P_(i+1) - P_i) / (t_(i+k) - t_(i+1)), 0 for a function that is zero everywhere (Piegl & Tiller, The NURBS
+    Book, 2nd ed., eq. 3.4).
+
+    Examples
+    --------
+    >>> derived(np.array([0.0, 0, 2, 2]), 2, np.array([[0.0], [4.0]]))[1].ravel().tolist()
+    [2.0]
+    """
+    wide = knots[order:-1] - knots[1:-order]
+    speed = np.divide(order - 1, wide, out=np.zeros_like(wide), where=wide > 0)
+    return knots[1:-1], np.diff(points, axis=0) * speed.reshape(-1, *[1] * (points.ndim - 1))
+
+
 def clamped(knots: Array, order: int, start: float, end: float, times: int = 0) -> Array:
     """Knots for the part [start, end] of a spline: both ends ``order`` times, each inner knot ``times`` to ``order`` times.
 

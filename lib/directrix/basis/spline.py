@@ -47,8 +47,9 @@ class SpanTable:
     def __call__(self, u: Array, t: Array) -> Indices:
         """The spans that hold t (n,), where t is u (n,) in [0, 1] stretched onto the domain."""
         spans = self._cells[(u * self._count).astype(np.intp)]
-        outside = np.flatnonzero((t < self._knots[spans]) | (t >= self._knots[spans + 1]))
-        spans[outside] = spline_span(self._knots, self._order, t[outside])
+        outside = np.flatnonzero((t < self._knots[spans]) | (t >= self._knots[1:][spans]))
+        if outside.size:
+            spans[outside] = spline_span(self._knots, self._order, t[outside])
         return spans
 
 

@@ -261,7 +261,7 @@ class NurbsPatch(SplinePatch):
         return cast("Orders", lower(orders))  # pairs in, pairs out
 
     def _points(self, sums: Sums, orders: Orders, out: Array | None = None) -> list[Array]:
-        return cartesian(sums, orders, out)
+        return cartesian(cast("dict[tuple[int, ...], Array]", sums), orders, out)
 
     def with_net(
         self, net: Array, weights: Array, knots_u: KnotVector | None = None, knots_w: KnotVector | None = None

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from directrix.basis import SpanTable, spline_planes
-from directrix.checks import Array, Indices
+from directrix.basis import SpanTable, bernstein, bezier_extraction, derived, spline_planes
+from directrix.checks import Array
 from directrix.knots import KnotVector
 
 if TYPE_CHECKING:
@@ -28,10 +28,10 @@ Order = tuple[int, int]
 class ScatteredSums:
     """Σ_i Σ_j N_i(u) N_j(w) c_ij and its derivatives at scattered points, at a cost that does not grow with the net.
 
-    At a point only k of the N_i and l of the N_j are not zero. The k are one row of a sparse matrix; times the net, read
-    through a window of l columns, they leave l numbers a coordinate, which the N_j blend (Piegl & Tiller, The NURBS Book, 2nd
-    ed., algorithm A3.5, for a block of points at a time). Preparing that is worth while for more than `FEW` points: `blocks`;
-    `few` goes to scipy's compiled evaluator.
+    At a point only k of the N_i and l of the N_j are not zero. The k are one row of a sparse matrix; times the net, whose rows
+    are cut along w into Bezier pieces, they leave the l Bezier points of a curve, which l Bernstein functions blend, one row of
+    a second sparse matrix (Piegl & Tiller, The NURBS Book, 2nd ed., algorithm A3.5, for a block of points at a time). Preparing
+    that is worth while for more than `FEW` points: `blocks`; `few` goes to scipy's compiled evaluator.
 
     Parameters
     ----------
@@ -51,6 +51,7 @@ class ScatteredSums:
     def __init__(self, net: Array, along_u: KnotVector, along_w: KnotVector) -> None:
         self._net, self._knots = net, (along_u, along_w)
         self._speeds = speed(along_u), speed(along_w)
+        self._prepared: dict[int, Array] = {}
 
     @cached_property
     def _compiled(self) -> NdBSpline:
@@ -61,11 +62,22 @@ class ScatteredSums:
         u, w = (SpanTable(knots.values, knots.order) for knots in self._knots)
         return u, w
 
-    @cached_property
-    def _windows(self) -> Array:
-        """Row i (n - l + 1) + j holds c[i, j : j + l], one coordinate after the other: shape (m (n - l + 1), d l)."""
-        order = self._knots[1].order
-        return np.lib.stride_tricks.sliding_window_view(self._net, order, axis=1).reshape(-1, self._net.shape[2] * order)
+    def _pieces(self, nw: int) -> Array:
+        """Bezier points along w of the nw-th derivative, [span of w, row of the net, point, coordinate], as a matrix.
+
+        Row j m + i is the piece of row i of the net on the j-th span: shape ((n - l + 1) m, (l - nw) d). Lower derivatives of
+        polynomials on a span could do for all nw, but lose digits on spans much shorter than their neighbours.
+        """
+        if nw not in self._prepared:
+            m, _, d = self._net.shape
+            values, order, points = self._knots[1].values, self._knots[1].order, self._net.swapaxes(0, 1)
+            for lower in range(order, order - nw, -1):
+                values, points = derived(values, lower, points)
+            order -= nw
+            near = np.lib.stride_tricks.sliding_window_view(points.reshape(len(points), -1), order, axis=0)
+            found = bezier_extraction(values, order) @ near.swapaxes(1, 2)
+            self._prepared[nw] = found.reshape(-1, order, m, d).swapaxes(1, 2).reshape(-1, order * d)
+        return self._prepared[nw]
 
     def few(self, u: Array, w: Array, orders: Sequence[Order]) -> dict[Order, Array]:
         """The derivatives at parameters that broadcast, one point after the other, as planes (d, ...)."""
@@ -94,39 +106,46 @@ class ScatteredSums:
         return found
 
     def _many(self, u: Array, w: Array, orders: Sequence[Order]) -> Iterator[tuple[slice, dict[Order, Array]]]:
-        from scipy.sparse import csr_array
-
         m, n, d = self._net.shape
-        k, l = (knots.order for knots in self._knots)
+        (k, l), (along_u, along_w) = (knots.order for knots in self._knots), self._knots
         block = min(len(u), max(1, BLOCK * 16 // max(16, k * l)))
-        functions, columns = np.zeros((block, k)), np.zeros((block, k), dtype=np.int32)
-        pieces = functions.ravel(), columns.ravel(), np.arange(0, block * k + 1, k, dtype=np.int32)
-        matrix = csr_array(pieces, shape=(block, m * (n - l + 1)))  # reads the two arrays, which are filled again and again
-        repeated, summed = np.tile(np.eye(l), d), np.repeat(np.eye(d), l, axis=0)
+        functions = _Rows((block, m * (n - l + 1)), k)
+        blending = {nw: _Rows((block, block * (l - nw)), l - nw) for nw in {nw for _, nw in orders} if nw < l}
+        for blend in blending.values():
+            blend.columns[:] = np.arange(blend.columns.size).reshape(block, -1)
+        starts, widths = along_w.values, np.diff(along_w.values)
         for start in range(0, len(u), block):
             part = slice(start, min(start + block, len(u)))
             size = part.stop - start
-            f, spans_u = self._functions(0, u[part], {nu for nu, _ in orders})
-            g, spans_w = self._functions(1, w[part], {nw for _, nw in orders})
-            corner = (spans_u - k + 1) * (n - l + 1) + spans_w - l + 1
+            s, t = along_u.stretch(u[part]), along_w.stretch(w[part])
+            span_u, span_w = self._spans[0](u[part], s), self._spans[1](w[part], t)
+            corner = (span_w - l + 1) * m + span_u - k + 1
             for i in range(k):
-                columns[:size, i] = corner + i * (n - l + 1)
+                functions.columns[:size, i] = corner + i
+            x = (t - starts[span_w]) / widths[span_w]
+            for nw, blend in blending.items():
+                blend.values[:size] = bernstein(l - 1 - nw, x)
             found = {}
-            for nu in f:
-                functions[:size] = f[nu].T
-                along_u = (matrix @ self._windows)[:size]
+            for nu in {nu for nu, _ in orders}:
+                functions.values[:size] = spline_planes(along_u.values, k, s, span_u, nu).T
                 for nw in (nw for other, nw in orders if other == nu):
-                    products = g[nw].T @ repeated
-                    products *= along_u
-                    found[nu, nw] = summed.T @ products.T
+                    if nw < l:
+                        curves = functions.matrix @ self._pieces(nw)
+                        found[nu, nw] = (blending[nw].matrix @ curves.reshape(-1, d))[:size].T
+                    else:
+                        found[nu, nw] = np.zeros((d, size))
             yield part, found
 
-    def _functions(self, axis: int, u: Array, derivatives: set[int]) -> tuple[dict[int, Array], Indices]:
-        """Basis functions that are not zero, or their derivatives, as planes, and the spans."""
-        knots = self._knots[axis]
-        t = knots.stretch(u)
-        spans = self._spans[axis](u, t)
-        return {n: spline_planes(knots.values, knots.order, t, spans, n) for n in derivatives}, spans
+
+class _Rows:
+    """A sparse matrix with the same number of entries in each row, whose values and columns are filled in again and again."""
+
+    def __init__(self, shape: tuple[int, int], width: int) -> None:
+        from scipy.sparse import csr_array
+
+        self.values, self.columns = np.zeros((shape[0], width)), np.zeros((shape[0], width), dtype=np.int32)
+        ends = np.arange(0, shape[0] * width + 1, width, dtype=np.int32)
+        self.matrix = csr_array((self.values.ravel(), self.columns.ravel(), ends), shape=shape)  # shares the two arrays
 
 
 def speed(knots: KnotVector) -> float:

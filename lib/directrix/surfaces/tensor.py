@@ -139,6 +139,7 @@ class TensorPatch(Surface):
         rows = {nu: self._functions_u(u, nu) for nu in {nu for nu, _ in orders}}
         columns = {nw: self._functions_w(w, nw) for nw in {nw for _, nw in orders}}
         grid = Grid(self._planes, rows, columns)
+
         def derivatives(part: slice) -> list[Array]:
             found = grid(part, orders)
             return [found[order].transpose(1, 2, 0) for order in orders]

@@ -2,7 +2,15 @@
 
 import numpy as np
 import pytest
-from directrix.basis import bernstein, cox_de_boor, spline_local, spline_row, spline_span
+from directrix.basis import (
+    bernstein,
+    bezier_extraction,
+    cox_de_boor,
+    derived,
+    spline_local,
+    spline_row,
+    spline_span,
+)
 from directrix.knots import open_knots
 from geomdl import helpers
 from scipy.interpolate import BSpline
@@ -94,3 +102,28 @@ def test_local_support():
     assert values.shape == (500, 4)
     assert (first >= 0).all()
     assert (first <= 36).all()
+
+
+@pytest.mark.parametrize(("knots", "order"), KNOTS)
+def test_bezier_pieces_are_the_spline(knots, order):
+    """Bernstein functions of the place in a span, times its extraction, are the functions that are not zero there."""
+    t = places(knots, order)
+    span = spline_span(knots, order, t)
+    inside = (t - knots[span]) / (knots[span + 1] - knots[span])
+    extraction = bezier_extraction(knots, order)
+    found = (bernstein(order - 1, inside)[:, None] @ extraction[span - order + 1])[:, 0]
+    np.testing.assert_allclose(found, spline_local(knots, order, t)[1], atol=1e-14)
+    empty = np.diff(knots)[order - 1 : len(knots) - order] == 0
+    assert (extraction >= 0).all()
+    np.testing.assert_allclose(extraction.sum(axis=2), np.where(empty, 0.0, 1.0)[:, None] * np.ones(order), atol=1e-14)
+
+
+@pytest.mark.parametrize(("knots", "order"), [case for case in KNOTS if case[1] > 1])
+def test_the_derived_spline_is_the_derivative(knots, order):
+    """Its functions on its own knots, one order lower, against the derivatives of the functions."""
+    points = np.random.default_rng(1).standard_normal((len(knots) - order, 2))
+    t = places(knots, order)
+    lower, differences = derived(knots, order, points)
+    np.testing.assert_allclose(
+        spline_row(lower, order - 1, t) @ differences, spline_row(knots, order, t, 1) @ points, atol=1e-12
+    )
