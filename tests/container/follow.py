@@ -33,7 +33,7 @@ DEVICES = ("null", "zero", "full", "random", "urandom", "tty")
 MASKED = ("/proc/kcore", "/proc/keys", "/proc/timer_list", "/proc/sysrq-trigger")  # some of those that engines cover
 RUNS = ("doctor --level A-", "demo --dir demo")
 
-# Run with the paths to show as $2 $3, $4 $5, ...; what comes after -- is run inside as process 1's child.
+# Its arguments: the root, masks, pairs of a path of this machine and its place inside, --, and the command.
 ENTER = """
 set -e
 root=$1; masks=$2; shift 2
