@@ -30,7 +30,7 @@ STYLE_PROPERTIES = frozenset(
         "white-space",
     }
 )  # fmt: skip
-SHORT = 34  # characters of a cell of the table that stay on one line
+SHORT = 24  # characters of a cell of the table that stay on one line
 
 
 def html(verdict: Verdict | Card) -> str:
