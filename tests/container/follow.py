@@ -157,7 +157,7 @@ def parse(text):
 
 def suite(instruction):
     """Debian's name of the release that FROM asks for."""
-    named = re.fullmatch(r"(?:docker\.io/)?(?:library/)?debian:(\w+)(?:-slim)?", instruction.rest)
+    named = re.fullmatch(r"debian:(\w+)(?:-slim)?", instruction.rest)
     if named is None or named[1] not in SUITES:
         raise instruction.cannot(f"only debian:NAME can be made with debootstrap, NAME one of {', '.join(SUITES)}")
     return SUITES[named[1]]

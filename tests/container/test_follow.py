@@ -10,7 +10,7 @@ from tests.container import follow
 
 SMALL = r"""# A comment, and an empty line.
 
-FROM docker.io/library/debian:12-slim
+FROM debian:12-slim
 RUN apt-get update \
     # in the middle of it
     && apt-get install -y bubblewrap
