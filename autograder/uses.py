@@ -7,6 +7,7 @@ parsed nor compiled. What comes out is a plain fact ("its text has this name in 
 from __future__ import annotations
 
 import dis
+import functools
 import io
 import keyword
 import tokenize
@@ -26,7 +27,7 @@ def in_text(sources: Iterable[str], name: str, wanted: Collection[str]) -> tuple
     """
     used: dict[str, set[str]] = {}
     for source in sources:
-        used |= _definitions(source)  # a later definition takes the place of an earlier one
+        used |= _definitions(source[:LONGEST])  # a later definition takes the place of an earlier one
     return _reached(name, lambda known: used.get(known, set()), set(wanted) - {name})
 
 
@@ -64,6 +65,7 @@ def _globals_in(code: CodeType) -> Iterator[str]:
             yield from _globals_in(constant)
 
 
+@functools.lru_cache(maxsize=128)  # the cells of one notebook, which is asked about after each exercise that is not right
 def _definitions(source: str) -> dict[str, set[str]]:
     """The names in the text of each function that is defined, and in each assignment, at the left margin of a cell."""
     found: dict[str, set[str]] = {}
@@ -93,7 +95,7 @@ def _blocks(source: str) -> Iterator[list[tokenize.TokenInfo]]:
     block: list[tokenize.TokenInfo] = []
     level, fresh = 0, True
     try:
-        for token in tokenize.generate_tokens(io.StringIO(source[:LONGEST]).readline):
+        for token in tokenize.generate_tokens(io.StringIO(source).readline):
             if token.type in (tokenize.INDENT, tokenize.DEDENT):
                 level += 1 if token.type == tokenize.INDENT else -1
             elif token.type == tokenize.NEWLINE:

@@ -66,11 +66,16 @@ class Shown:
 
 def _size(value: Any) -> int:
     """Characters of a JSON value, nearly."""
-    if isinstance(value, str):
+    if type(value) is str:
         return len(value)
-    if isinstance(value, Mapping):
-        return sum(len(str(key)) + _size(part) for key, part in value.items())
-    return sum(map(_size, value)) if isinstance(value, list | tuple) else 8
+    if type(value) is dict or isinstance(value, Mapping):
+        size = 0
+        for key, part in value.items():
+            size += len(str(key)) + (len(part) if type(part) is str else _size(part))
+        return size
+    if isinstance(value, list | tuple):
+        return sum(map(_size, value))
+    return len(value) if isinstance(value, str) else 8
 
 
 def _limited(outputs: list[dict[str, Any]], most: int) -> list[dict[str, Any]]:

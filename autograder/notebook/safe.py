@@ -137,7 +137,13 @@ def text(value: object, limit: int = MAX_TEXT) -> str:
     return valid if len(valid) <= limit else valid[:limit] + "\n... cut here: the output was too long ..."
 
 
-def figure(value: object) -> dict[str, Any] | None:
+class Figure(dict[str, Any]):
+    """A figure that passed, with its JSON as it is written to a file: whoever changes the figure must not use ``written``."""
+
+    written: str = ""
+
+
+def figure(value: object) -> Figure | None:
     """A plotly figure reduced to data and layout, finite numbers, no pictures or maps from elsewhere; None if it is none."""
     if not isinstance(value, Mapping) or not isinstance(value.get("data"), list):
         return None
@@ -148,8 +154,9 @@ def figure(value: object) -> dict[str, Any] | None:
         return None
     layout = {key: part for key, part in layout.items() if key != "images" and not _FETCHING.search(str(key))}
     try:
-        plain = plain_json({"data": value["data"], "layout": layout})
-        size = len(json.dumps(plain, allow_nan=False))
+        plain = Figure(plain_json({"data": value["data"], "layout": layout}))
+        plain.written = json.dumps(plain, sort_keys=True, ensure_ascii=False, allow_nan=False)
+        size = len(plain.written) if plain.written.isascii() else len(json.dumps(plain, allow_nan=False))
     except (TypeError, ValueError, RecursionError):
         return None
     return plain if size <= MAX_FIGURE else None
@@ -158,10 +165,10 @@ def figure(value: object) -> dict[str, Any] | None:
 def plain_json(value: Any) -> Any:
     """The same value with valid Unicode and with None where a number is not finite."""
     if isinstance(value, str):
-        return text(value)
+        return value if len(value) <= MAX_TEXT and value.isascii() else text(value)
     if isinstance(value, float):
         return value if math.isfinite(value) else None
-    if isinstance(value, Mapping):
+    if type(value) is dict or isinstance(value, Mapping):
         return {text(str(key)): plain_json(part) for key, part in value.items()}
     if isinstance(value, list | tuple):
         return [plain_json(part) for part in value]

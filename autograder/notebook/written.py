@@ -10,7 +10,7 @@ import secrets
 from collections.abc import Mapping
 from typing import Any
 
-FIGURE = "application/vnd.plotly.v1+json"
+from autograder.notebook.safe import FIGURE, Figure
 
 
 def dumps(notebook: Mapping[str, Any]) -> bytes:
@@ -39,7 +39,8 @@ def _output(output: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any
         data = {mime: value.splitlines(True) if mime.startswith("text/") else value for mime, value in output["data"].items()}
         if isinstance(data.get(FIGURE), dict):
             place = secrets.token_hex(16)  # nothing that a learner wrote can be this
-            written = json.dumps(data[FIGURE], sort_keys=True, ensure_ascii=False, allow_nan=False)
-            figures[place], data[FIGURE] = written, place
+            written = data[FIGURE].written if isinstance(data[FIGURE], Figure) else ""  # checked, so written, already
+            figures[place] = written or json.dumps(data[FIGURE], sort_keys=True, ensure_ascii=False, allow_nan=False)
+            data[FIGURE] = place
         return {**output, "data": data}
     return dict(output)

@@ -146,7 +146,7 @@ def _checked(value: Any, depth: int) -> Any:
     if isinstance(value, list):
         return [_checked(item, depth - 1) for item in value]
     if isinstance(value, dict):
-        return {text(key): _checked(item, depth - 1) for key, item in value.items()}
+        return {key if key.isascii() else text(key): _checked(item, depth - 1) for key, item in value.items()}
     return value
 
 
