@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import contextlib
 import datetime
+import importlib
 import uuid
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import sqlalchemy as sa
-from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.engine import Connection
 
 from autograder.errors import CourseError
@@ -215,8 +215,8 @@ class Gradebook:
 
     def _insert(self, connection: Connection, table: sa.Table, rows: Sequence[Mapping[str, Any]]) -> None:
         if rows:
-            make = postgresql.insert if self.engine.dialect.name == "postgresql" else sqlite.insert
-            connection.execute(make(table).on_conflict_do_nothing(), rows)
+            dialect = importlib.import_module(f"sqlalchemy.dialects.{self.engine.dialect.name}")  # loading both takes long
+            connection.execute(dialect.insert(table).on_conflict_do_nothing(), rows)
 
     def _submissions(self, connection: Connection, of: AssignmentRow, records: Sequence[Record]) -> dict[str, str]:
         rows = [
