@@ -54,11 +54,13 @@ def bernstein(degree: int, t: Array, derivative: int = 0) -> Array:
         return np.zeros((*t.shape, degree + 1))
     lower = degree - derivative
     powers = np.empty((lower + 1, 2, *t.shape))  # of t and of 1 - t, one after the other: faster than side by side
-    powers[0], powers[1:, 0], powers[1:, 1] = 1.0, t, 1 - t
+    powers[0] = 1.0
+    if lower:
+        powers[1, 0], powers[1, 1] = t, 1 - t
     for i in range(2, lower + 1):
         np.multiply(powers[i - 1], powers[1], out=powers[i])
     planes = powers[:, 0] * powers[::-1, 1]
-    planes *= _binomials(lower).reshape(-1, *[1] * t.ndim)
+    planes[1:-1] *= _inner_binomials(lower).reshape(-1, *[1] * t.ndim)
     values = planes.transpose(*range(1, planes.ndim), 0)
     for n in range(lower + 1, degree + 1):
         values = n * -np.diff(values, axis=-1, prepend=0.0, append=0.0)
@@ -66,8 +68,9 @@ def bernstein(degree: int, t: Array, derivative: int = 0) -> Array:
 
 
 @cache
-def _binomials(n: int) -> Array:
-    return np.array([comb(n, i) for i in range(n + 1)], dtype=np.float64)
+def _inner_binomials(n: int) -> Array:
+    """C(n, 1), ..., C(n, n - 1): all that are not 1."""
+    return np.array([comb(n, i) for i in range(1, n)], dtype=np.float64)
 
 
 def hermite(t: Array, derivative: int = 0) -> Array:

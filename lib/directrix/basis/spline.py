@@ -67,14 +67,15 @@ def spline_planes(knots: Array, order: int, t: Array, span: Indices, derivative:
     """
     if derivative >= order:
         return np.zeros((order, len(t)))
-    near = knots[span + np.arange(2 - order, order)[:, None]]  # the k - 1 knots up to t, and the k - 1 beyond
+    near = knots.take(span + np.arange(2 - order, order)[:, None])  # the k - 1 knots up to t, and the k - 1 beyond
     below, above = near[: order - 1], near[order - 1 :]
     left, right = t - below, above - t
     values = np.empty((order, len(t)))
     values[0] = 1.0
     for q in range(1, order):  # q functions of order q become q + 1 of order q + 1
         low, high = slice(order - 1 - q, order - 1), slice(q)
-        share = values[:q] / (above[high] - below[low])
+        share = above[high] - below[low]
+        np.divide(values[:q], share, out=share)
         if q < order - derivative:
             np.multiply(right[high], share, out=values[:q])
             share *= left[low]
