@@ -380,6 +380,8 @@ TEXT: dict[str, str] = {
     "repeat.other": "Called twice with the same arguments it gives two different answers.",
     "repeat.raised": "Called a second time with the same arguments it stops with {exception}: {message}",
     "look.repeat": "Look for random numbers, or for a list outside the function that grows.",
+    # --- the card
+    "tier.named_mistake": "slip: {name}",
     # --- the grader's own failure
     "own.failure": "This could not be judged; it is not your fault and costs no marks. Please tell your instructor: {message}",
 }

@@ -39,7 +39,7 @@ TIERS: dict[Tier, tuple[str, str]] = {
     "not pointwise": ("!", "not point by point"),
     "not repeatable": ("!", "not repeatable"),
 }
-PARTS = {"right": "What holds", "wrong": "What does not", "where": "Where", "look": "Look at"}
+PARTS = {"right": "What holds", "wrong": "What does not", "where": "Where", "look": "Next"}
 LETTERS = {1: ("u",), 2: ("u", "w"), 3: ("u", "v", "w")}
 LONGEST = 1200  # characters of one part
 LONGEST_NOTE = 2400
@@ -124,7 +124,7 @@ def result_of(case: Case) -> str:
     """The rung of a data set with its sign, and the slip by its name."""
     sign, said = TIERS[case.tier]
     if case.mistake and case.tier != "identical":
-        said = f"{said}: {case.mistake}"
+        said = say("tier.named_mistake", name=case.mistake)
     return f"{sign} {said}"
 
 

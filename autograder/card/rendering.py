@@ -30,7 +30,7 @@ STYLE_PROPERTIES = frozenset(
         "white-space",
     }
 )  # fmt: skip
-SHORT = 24  # characters of a cell of the table that stay on one line
+SHORT = 22  # characters of a cell of the table that stay on one line
 
 
 def html(verdict: Verdict | Card) -> str:
@@ -119,7 +119,7 @@ def _cell(text: str, tag: str = "td") -> str:
     weight = "bold" if tag == "th" else "normal"
     wrap = "nowrap" if len(text) <= SHORT else "normal"
     style = (
-        f"font-weight: {weight}; white-space: {wrap}; text-align: left; vertical-align: top; padding: 2px 14px 2px 0; {line}"
+        f"font-weight: {weight}; white-space: {wrap}; text-align: left; vertical-align: top; padding: 2px 10px 2px 0; {line}"
     )
     return f'<{tag} style="{style}">{_escape(text)}</{tag}>'
 

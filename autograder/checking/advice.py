@@ -44,14 +44,14 @@ def missing(name: str, failure: Failure | None, catalogue: Catalogue, defined: M
     exercise = catalogue.get(name)
     near = _near(name, [known for known, value in defined.items() if callable(value) and not known.startswith("_")])
     if exercise is None and (ids := _near(name, [one.id for one in catalogue])):
-        parts.append(("Look at", f"Is the name written as in the task? There is an exercise {_or(ids)}."))
+        parts.append(("Next", f"Is the name written as in the task? There is an exercise {_or(ids)}."))
     elif near:
         parts.append(
-            ("Look at", f"You have defined {_or(near)}; the task wants `def {exercise.signature if exercise else name}:`.")
+            ("Next", f"You have defined {_or(near)}; the task wants `def {exercise.signature if exercise else name}:`.")
         )
     else:
         wanted = f"`def {exercise.signature}:`" if exercise is not None else "the function"
-        parts.append(("Look at", f"Run the cell that begins with {wanted} first (Shift+Enter), then this one again."))
+        parts.append(("Next", f"Run the cell that begins with {wanted} first (Shift+Enter), then this one again."))
         parts.append(("Why", "After a restart of the kernel every cell has to be run again, from the top."))
     return Card("not run", title, tuple(parts))
 
@@ -62,7 +62,7 @@ def failed_cell(name: str, failure: Failure) -> Parts:
     parts = [("What does not", f"The cell that should define `{name}` stopped: {failure.exception}: {failure.message}")]
     parts.append(("Where", f"{place}: `{failure.source}`" if failure.source else f"{place}."))
     hint = _syntax_hint(failure) if failure.is_syntax else "Mend that line, run that cell again, then this one."
-    parts.append(("Look at", hint))
+    parts.append(("Next", hint))
     return tuple(parts)
 
 
@@ -86,7 +86,7 @@ def interrupted(exercise: Exercise, learner: Learner) -> Card:
     """The card where the learner stopped the kernel while the function ran."""
     parts = (
         ("What does not", f"`{exercise.id}` was stopped by you in its call number {learner.calls}."),
-        ("Look at", "Is there a loop that cannot end, or one that does the same work for every point?"),
+        ("Next", "Is there a loop that cannot end, or one that does the same work for every point?"),
     )
     return Card("failed", exercise.title, parts, notes=tuple(learner.notes()))
 
@@ -96,7 +96,7 @@ def _a_name(text: str, catalogue: Catalogue) -> Card:
     name = exercise.id if exercise is not None else next(iter(_near(text, [one.id for one in catalogue])), "cylinder")
     parts = (
         ("What does not", "check takes the function itself, not its name in quotation marks."),
-        ("Look at", f"Write `check({name})`."),
+        ("Next", f"Write `check({name})`."),
     )
     return Card("not run", "A name instead of a function", parts)
 
@@ -110,7 +110,7 @@ def _a_result(value: Any) -> Card:
         what = f"check was given a value of type {type(value).__name__}: what a function returned"
     parts = (
         ("What does not", f"{what}. It takes the function itself, which it calls with data of its own."),
-        ("Look at", "Write the name only, without brackets behind it: `check(cylinder)`, not `check(cylinder(...))`."),
+        ("Next", "Write the name only, without brackets behind it: `check(cylinder)`, not `check(cylinder(...))`."),
     )
     return Card("not run", "A result instead of a function", parts)
 
@@ -122,16 +122,16 @@ def _unknown(f: Any, catalogue: Catalogue, defined: Mapping[str, Any]) -> Card:
         how = f"`def {catalogue.find(own).signature}:`" if own else "as the task shows"
         unnamed = (
             ("What does not", "This function has no name, and its name tells which exercise it answers."),
-            ("Look at", f"Write it with def: {how}" if own else f"Write it with def, {how}."),
+            ("Next", f"Write it with def: {how}" if own else f"Write it with def, {how}."),
         )
         return Card("not run", "A function without a name", unnamed)
     near = _near(name, [one.id for one in catalogue])
     parts = [("What does not", f"There is no exercise called `{name}`; the name of the function tells which one it answers.")]
     if near:
         wanted = catalogue.find(near[0])
-        parts.append(("Look at", f"Did you mean {_or(near)}? Then write `def {wanted.signature}:`"))
+        parts.append(("Next", f"Did you mean {_or(near)}? Then write `def {wanted.signature}:`"))
     else:
-        parts.append(("Look at", "Keep the name that stands in the task, and check that one."))
+        parts.append(("Next", "Keep the name that stands in the task, and check that one."))
         away = "An exercise of your own course is known only where its exercises are: beside the notebook, or installed"
         parts.append(("If it is the name in the task", f"{away}; ask whoever gave you the notebook."))
         parts.append(("There are", ", ".join(one.id for one in catalogue)))

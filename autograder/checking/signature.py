@@ -29,7 +29,7 @@ class Trouble:
                 ("What does not", f"Your function does not take the arguments of the task. {self.said}"),
                 ("Wanted", f"`def {exercise.signature}:`"),
                 ("Yours", f"`def {self.yours}:`"),
-                ("Look at", "The names are yours to choose, but their number and order are fixed: u and w come first."),
+                ("Next", "The names are yours to choose, but their number and order are fixed: u and w come first."),
             ),
         )
 

@@ -79,7 +79,9 @@ def test_every_tier_has_words_and_a_sign(tier):
     shown = verdict(tier=tier)
     sign, said = card.TIERS[tier]
     for text in (card.text(shown), Flat(card.html(shown)).text):
-        assert f"{sign} {said}" in text or f"{sign} lecture: {said}" in text
+        assert any(f"{sign} {data}{said}" in text for data in ("", "lecture: ", "drawn (hidden): "))
+    if tier == "mistake":  # a slip that is told by its name needs fewer words
+        assert "✗ slip: no_2pi" in Flat(card.html(shown)).text
 
 
 @pytest.mark.parametrize("outcome", card.OUTCOMES)
@@ -102,10 +104,9 @@ def test_text_alone_says_everything():
         "What holds: z is right everywhere.",
         "What does not: Your surface is the one of a known slip. It never closes.",
         "Where: Furthest off at u = 0.5, w = 0.25.",
-        "Look at: Which angle brings you back? See np.pi.",
+        "Next: Which angle brings you back? See np.pi.",
         "Data sets:",
-        "  ✗ lecture: a known slip: no_2pi; off by 53 % of its size; at (u, w) = (0.5, 0.25); yours (1.5, 1, 1); "
-        "reference (-2, 0, 1)",
+        "  ✗ lecture: slip: no_2pi; off by 53 % of its size; at (u, w) = (0.5, 0.25); yours (1.5, 1, 1); reference (-2, 0, 1)",
         "  ✓ unit (blind): right",
         "  ✗ drawn (hidden): a known slip",
     ]

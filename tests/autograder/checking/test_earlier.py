@@ -15,7 +15,7 @@ def test_a_notebook_is_told_which_function_to_put_right_first(notebook):
     notebook.run(PATCH)
     (shown,) = notebook.run("check(bezier_patch)").cards
     assert "It comes out wrong only because bernstein, which it calls, is not right yet." in shown
-    assert "Look at: Put bernstein right and check again; bezier_patch needs no change." in shown
+    assert "Next: Put bernstein right and check again; bezier_patch needs no change." in shown
 
 
 def test_the_points_are_those_of_any_answer_that_is_right_on_some_data(notebook):

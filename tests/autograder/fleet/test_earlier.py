@@ -63,7 +63,7 @@ def test_the_card_says_which_function_to_put_right_first(graded, student):
     later, earlier = cards[student, "bezier_patch"], cards[student, "bernstein"]
     assert "bezier_patch does with your bernstein just what it should." in later
     assert "It comes out wrong only because bernstein, which it calls, is not right yet." in later
-    assert "Look at: Put bernstein right and check again; bezier_patch needs no change." in later
+    assert "Next: Put bernstein right and check again; bezier_patch needs no change." in later
     assert "only because" not in earlier
     assert "forgot how often its product occurs" not in later  # the listed mistake's hint, which belongs to the other card
 
