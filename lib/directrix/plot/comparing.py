@@ -16,6 +16,7 @@ from directrix import checks
 from directrix.plot import palette, traces
 from directrix.plot.sampling import LETTERS, Array, axes_of, bounds, deviation, grid_normals, points_on, size_of
 from directrix.plot.scene import CORNER, VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
+from directrix.plot.wording import WORDS, Words
 
 TOWARDS = np.array(CORNER) / np.linalg.norm(CORNER)  # the reader, before the figure is turned
 HEIGHT = 430
@@ -24,6 +25,7 @@ LINES = 8  # parameter lines each way, apart from the edges: every eighth of the
 FAR = 8.0  # a surface that runs further out than this many sizes of the reference leaves the picture
 FARTHER = 1.14  # two narrow scenes want their cameras a little further away
 DOMAINS = ((0.0, 0.455), (0.465, 0.92))
+SIDES = {view: view.removeprefix("from ") for view in VIEWS if view.startswith("from ")}
 
 
 def compare(
@@ -37,6 +39,7 @@ def compare(
     title: str | None = None,
     same: bool = False,
     letters: Sequence[str] | None = None,
+    words: Words = WORDS,
 ) -> dict[str, Any]:
     """A comparison figure of sampled curves or surfaces, as plain JSON (``data`` and ``layout``).
 
@@ -51,6 +54,7 @@ def compare(
     title : a line above
     same : True draws ``yours`` alone, since it is the reference
     letters : what the parameters are called where that is not u, or u and w: a layer of a solid runs along u and v
+    words : what is read and heard there, with the keys of :data:`directrix.plot.wording.WORDS`
 
     Raises
     ------
@@ -65,7 +69,7 @@ def compare(
     ['data', 'layout']
     """
     built = comparison(
-        parameters, expected, yours, worst=worst, size=size, names=names, title=title, same=same, letters=letters
+        parameters, expected, yours, worst=worst, size=size, names=names, title=title, same=same, letters=letters, words=words
     )
     plain: dict[str, Any] = encode(built)
     return plain
@@ -82,6 +86,7 @@ def comparison(
     title: str | None = None,
     same: bool = False,
     letters: Sequence[str] | None = None,
+    words: Words = WORDS,
 ) -> dict[str, Any]:
     """:func:`compare` with its arrays still arrays."""
     axes = axes_of(parameters)
@@ -89,13 +94,13 @@ def comparison(
     right = points_on("expected", expected, axes)
     if yours is None or same:
         shown, name = (right, names[0]) if yours is None else (points_on("yours", yours, axes), names[1])
-        return _alone(axes, shown, name, title, same, called)
+        return _alone(axes, shown, name, title, same, called, words)
     left = points_on("yours", yours, axes)
     off = deviation(right, left) / (size or size_of(right))
     place = _worst(axes, off, worst)
-    left, far = _within_reach(right, left)
+    left, far = _within_reach(right, left, words)
     draw = _two_curves if len(axes) == 1 else _two_scenes
-    built = draw(axes, right, left, off, place, names, title, called)
+    built = draw(axes, right, left, off, place, names, title, called, words)
     if far:
         built["layout"]["annotations"].append(word(far, sum(DOMAINS[1]) / 2 if len(axes) == 2 else 0.5, 0.93))
         built["layout"]["meta"]["alt"] += f" {far}."
@@ -111,13 +116,14 @@ def _two_scenes(
     names: tuple[str, str],
     title: str | None,
     called: tuple[str, ...],
+    words: Words,
 ) -> dict[str, Any]:
     u, w = axes
     box = _box(right, left)
     top = min(float(np.nanmax(off)), FAR) if np.isfinite(off).any() else 0.0
     limits = (0.0, top if top > ROUNDING else 1.0)  # or rounding would be painted as a deviation
     bar = {
-        "title": {"text": "off by<br>÷ size", "font": {"size": 12}}, "thickness": 12, "len": 0.78, "x": 0.935,
+        "title": {"text": words["bar"], "font": {"size": 12}}, "thickness": 12, "len": 0.78, "x": 0.935,
         "xanchor": "left", "y": 0.5, "tickfont": {"size": 11}, "nticks": 6, "outlinewidth": 0, "tickformat": ".3~g",
     }  # fmt: skip
     data = [
@@ -129,31 +135,28 @@ def _two_scenes(
             colour=np.minimum(off, 1e6),
             bar=bar,
             limits=limits,
-            says="off by (÷ size)",
+            says=words["off"],
             scene="scene2",
             name=names[1],
             letters=(called[0], called[1]),
         ),
     ]
     data += _lines(right, u, w, size_of(right), "scene", called) + _lines(left, u, w, size_of(right), "scene2", called)
-    data += _marked(axes, right, left, place, "scene", "scene2", called)
+    data += _marked(axes, right, left, place, "scene", "scene2", called, words)
     notes = [
         word(f"<b>{short(names[0])}</b>", sum(DOMAINS[0]) / 2, 1.0, size=14),
-        word(f"<b>{short(names[1])}</b>, coloured by its deviation", sum(DOMAINS[1]) / 2, 1.0, size=14),
-        word(legend(called, extra=coloured("◆ largest deviation", palette.MARK) if place is not None else ""), 0.99, -0.03,
+        word(words["coloured"].format(name=f"<b>{short(names[1])}</b>"), sum(DOMAINS[1]) / 2, 1.0, size=14),
+        word(legend(called, extra=_largest(words) if place is not None else "", along=words["along"]), 0.99, -0.03,
              anchor="right", yanchor="top"),
     ]  # fmt: skip
-    alt = (
-        f"Two 3-D scenes on the same axes whose cameras turn together. Left: {names[0]}. Right: {names[1]}, coloured by its "
-        f"deviation. {_said(off, place, called)}"
-    )
+    alt = f"{words['two_scenes'].format(first=names[0], second=names[1])} {_said(off, place, called, words)}"
     corner = box.corner(None if place is None else between(axes, right, place))
     figure = layout(height=HEIGHT, title=title, alt=alt, link=("scene", "scene2"))
     figure |= {
         "scene": scene(box, DOMAINS[0], distance=FARTHER, corner=corner),
         "scene2": scene(box, DOMAINS[1], distance=FARTHER, corner=corner),
         "annotations": notes,
-        "updatemenus": [_views(("scene", "scene2"), corner)],
+        "updatemenus": [_views(("scene", "scene2"), corner, words)],
     }
     figure["margin"] |= {"t": 62 if title else 34}
     return {"data": data, "layout": figure}
@@ -168,30 +171,32 @@ def _two_curves(
     names: tuple[str, str],
     title: str | None,
     called: tuple[str, ...],
+    words: Words,
 ) -> dict[str, Any]:
     box = _box(right, left)
     data = [
         traces.curve(right, axes[0], colour=palette.REFERENCE, name=names[0], width=8),
         traces.curve(left, axes[0], colour=palette.YOURS, name=names[1], width=5, dash="dash"),
-        *_marked(axes, right, left, place, "scene", "scene", called),
+        *_marked(axes, right, left, place, "scene", "scene", called, words),
     ]
-    words = [
+    key = [
         coloured(f"━ {short(names[0])}", palette.REFERENCE),
         coloured(f"╍ {short(names[1])}", palette.YOURS),
-        *([coloured("◆ largest deviation", palette.MARK)] if place is not None else []),
+        *([_largest(words)] if place is not None else []),
     ]
-    alt = f"One 3-D scene with two curves: {names[0]}, and {names[1]} dashed. {_said(off, place, called)}"
+    alt = f"{words['two_curves'].format(first=names[0], second=names[1])} {_said(off, place, called, words)}"
     figure = layout(height=HEIGHT, title=title, alt=alt)
-    figure |= {"scene": scene(box), "annotations": [word("&nbsp;&nbsp;&nbsp;".join(words), 0.5, -0.03, yanchor="top")]}
+    figure |= {"scene": scene(box), "annotations": [word("&nbsp;&nbsp;&nbsp;".join(key), 0.5, -0.03, yanchor="top")]}
     return {"data": data, "layout": figure}
 
 
 def _alone(
-    axes: list[Array], points: Array, name: str, title: str | None, same: bool, called: tuple[str, ...]
+    axes: list[Array], points: Array, name: str, title: str | None, same: bool, called: tuple[str, ...], words: Words
 ) -> dict[str, Any]:
-    alt = f"A 3-D scene: {name}" + (", which agrees with the reference everywhere." if same else ".")
+    alt = words["alone_right" if same else "alone"].format(name=name)
     figure = layout(height=HEIGHT, title=title, alt=alt)
-    words = [f"<b>{short(name)}</b>" + (" = the reference" if same else "")]
+    strong = f"<b>{short(name)}</b>"
+    key = [words["right"].format(name=strong) if same else strong]
     if len(axes) == 1:
         data = [traces.curve(points, axes[0], colour=palette.U, name=name)]
     else:
@@ -199,10 +204,10 @@ def _alone(
             traces.surface(points, *axes, name=name, letters=(called[0], called[1])),
             *_lines(points, axes[0], axes[1], size_of(points), "scene", called),
         ]
-        words.append(legend(called))
+        key.append(legend(called, along=words["along"]))
     figure |= {
         "scene": scene(Box.around(points)),
-        "annotations": [word("&nbsp;&nbsp;&nbsp;".join(words), 0.5, -0.03, yanchor="top")],
+        "annotations": [word("&nbsp;&nbsp;&nbsp;".join(key), 0.5, -0.03, yanchor="top")],
     }
     return {"data": data, "layout": figure}
 
@@ -289,14 +294,21 @@ def _seen(points: Array, size: float) -> tuple[tuple[int, int], tuple[int, int]]
 
 
 def _marked(
-    axes: list[Array], right: Array, left: Array, place: Array | None, first: str, second: str, called: tuple[str, ...]
+    axes: list[Array],
+    right: Array,
+    left: Array,
+    place: Array | None,
+    first: str,
+    second: str,
+    called: tuple[str, ...],
+    words: Words,
 ) -> list[dict[str, Any]]:
     """The worst place in both, and in yours a line to where it should be."""
     if place is None:
         return []
     there, here = between(axes, right, place), between(axes, left, place)
-    label = f"{'largest deviation' if first != second else 'here'}, {_at(place, called)}"
-    goal = f"should be here, {_at(place, called)}"
+    label = f"{words['largest' if first != second else 'here']}, {_at(place, called)}"
+    goal = f"{words['goal']}, {_at(place, called)}"
     drawn = [traces.marks(there, colour=palette.MARK, size=6, symbol="diamond", name=goal, scene=first)]
     if np.isfinite(here).all():
         drawn.append(traces.marks(here, colour=palette.MARK, size=6, symbol="diamond", name=label, scene=second))
@@ -325,11 +337,11 @@ def _worst(axes: list[Array], off: Array, worst: Sequence[float] | None) -> Arra
     return np.array([axis[i] for axis, i in zip(axes, index, strict=True)])
 
 
-def _within_reach(right: Array, left: Array) -> tuple[Array, str]:
+def _within_reach(right: Array, left: Array, words: Words) -> tuple[Array, str]:
     """``left`` without the points that are so far out that float32 and the eye lose them, and the words that say so."""
     finite = np.isfinite(left).all(axis=-1)
     if not finite.any():
-        return left, "no point of yours is finite"
+        return left, words["none_finite"]
     size, centre = size_of(right), np.nanmean(right.reshape(-1, 3), axis=0)
     with np.errstate(over="ignore", invalid="ignore"):
         reach = np.linalg.norm(left - centre, axis=-1) / size
@@ -337,11 +349,9 @@ def _within_reach(right: Array, left: Array) -> tuple[Array, str]:
     furthest = float(np.nanmax(np.where(finite, reach, np.nan)))
     kept = np.where((reach <= 100 * FAR)[..., None], left, np.nan)
     if furthest <= FAR:
-        return kept, "" if finite.all() else f"{int((~finite).sum())} of {finite.size} points of yours are not finite"
-    return (
-        kept,
-        f"yours runs out of the picture, {f'up to {furthest:.3g}' if furthest < 1e9 else 'more than a billion'} sizes away",
-    )
+        some = words["not_finite"].format(count=int((~finite).sum()), total=finite.size)
+        return kept, "" if finite.all() else some
+    return kept, words["far"].format(times=f"{furthest:.3g}") if furthest < 1e9 else words["very_far"]
 
 
 def _box(right: Array, left: Array) -> Box:
@@ -353,10 +363,14 @@ def _box(right: Array, left: Array) -> Box:
     return Box.around(right, finite)
 
 
-def _views(scenes: tuple[str, ...], corner: tuple[float, float, float]) -> dict[str, Any]:
+def _views(scenes: tuple[str, ...], corner: tuple[float, float, float], words: Words) -> dict[str, Any]:
     """Buttons for the standard views; they turn all scenes at once without any script."""
     buttons = [
-        {"label": view, "method": "relayout", "args": [{f"{name}.camera": camera(view, FARTHER, corner) for name in scenes}]}
+        {
+            "label": words["corner"] if view not in SIDES else words["from"].format(axis=SIDES[view]),
+            "method": "relayout",
+            "args": [{f"{name}.camera": camera(view, FARTHER, corner) for name in scenes}],
+        }
         for view in VIEWS
     ]
     return {
@@ -371,8 +385,14 @@ def _at(place: Array, called: tuple[str, ...]) -> str:
     return f"{called[0]} = {numbers}" if len(place) == 1 else f"({', '.join(called)}) = ({numbers})"
 
 
-def _said(off: Array, place: Array | None, called: tuple[str, ...]) -> str:
+def _largest(words: Words) -> str:
+    """The mark of the worst place, for the legend."""
+    return coloured(f"◆ {words['largest']}", palette.MARK)
+
+
+def _said(off: Array, place: Array | None, called: tuple[str, ...], words: Words) -> str:
     if place is None:
-        return "They agree." if np.isfinite(off).all() else ""
-    top = f"{np.nanmax(off):.3g} of its size" if np.isfinite(off).any() else "not finite"
-    return f"Largest deviation {top}, marked at {_at(place, called)}."
+        return words["agree"] if np.isfinite(off).all() else ""
+    if not np.isfinite(off).any():
+        return words["deviation_not_finite"].format(place=_at(place, called))
+    return words["deviation"].format(amount=f"{np.nanmax(off):.3g}", place=_at(place, called))

@@ -10,6 +10,7 @@ import numpy as np
 
 from directrix.plot import palette
 from directrix.plot.sampling import Array, bounds
+from directrix.plot.wording import WORDS
 
 # Looking down on the corner between +x and -y, z upwards: u and w of the known forms start towards the reader.
 CORNER = (1.18, -1.37, 0.86)
@@ -156,10 +157,10 @@ def coloured(text: str, colour: str) -> str:
     return f"<span style='color:{colour}'>{text}</span>"
 
 
-def legend(letters: tuple[str, ...] = ("u", "w"), extra: str = "") -> str:
+def legend(letters: tuple[str, ...] = ("u", "w"), extra: str = "", along: str = WORDS["along"]) -> str:
     """The line below a picture that says which colour runs along which parameter."""
     colours = (palette.U, palette.W)
-    runs = [coloured(f"━ along {letter}", colour) for letter, colour in zip(letters, colours, strict=False)]
+    runs = [coloured(f"━ {along.format(letter=letter)}", colour) for letter, colour in zip(letters, colours, strict=False)]
     return "&nbsp;&nbsp;&nbsp;".join([*runs, *([extra] if extra else [])])
 
 
