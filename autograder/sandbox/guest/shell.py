@@ -13,12 +13,13 @@ import builtins
 import getpass
 import io
 import json
+import linecache
 import math
 import os
 import re
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, ClassVar
 
 from IPython.core import page
@@ -375,14 +376,38 @@ class Shell(InteractiveShell):
             self.recorder.silent = False
 
     def rehearse(self, source: str) -> None:
-        """Run a cell that fails, and leave no trace of it: formatting the first traceback takes long."""
-        self.recorder.silent = True
-        self.run_cell(source, store_history=False, silent=True)  # type: ignore[no-untyped-call]
-        self.recorder.silent = False
-        self.ran_into = None
-        for name in ("last_type", "last_value", "last_traceback", "last_exc"):
-            if hasattr(sys, name):
-                delattr(sys, name)
+        """Run a cell that leaves no trace of it; inside :meth:`rehearsing`."""
+        running = self._run_in_loop(source)  # nothing in it waits, and a task would take the number of the notebook's first
+        with suppress(StopIteration):
+            running.send(None)
+        self.shown()
+
+    @contextmanager
+    def rehearsing(self) -> Iterator[None]:
+        """What is done first takes longest, a traceback above all. A notebook finds the shell as it was before."""
+        history: Any = self.history_manager
+        kept = [(found, found.copy()) for found in (self.user_ns, self.user_ns_hidden, self.compile._filename_map)]
+        self.recorder.begin(10**6, 1000)
+        try:
+            yield
+        finally:
+            for found, before in kept:
+                found.clear()
+                found.update(before)
+            for name in [name for name in linecache.cache if name.startswith("<ipython-input")]:
+                del linecache.cache[name]
+            history.reset(new_session=False)
+            history.input_hist_parsed[:] = history.input_hist_raw[:] = [""]
+            for held in (history.output_hist_reprs, history.db_input_cache, history.db_output_cache):
+                held.clear()
+            history._i = history._ii = history._iii = history._i00 = ""
+            self.displayhook._ = self.displayhook.__ = self.displayhook.___ = ""
+            self.execution_count, self.last_execution_succeeded, self.last_execution_result = 1, True, None
+            self.ran_into, self.told, self.read = None, (None, {}), None
+            self.recorder.begin(0, 0)
+            for name in ("last_type", "last_value", "last_traceback", "last_exc"):
+                if hasattr(sys, name):
+                    delattr(sys, name)
 
     @contextmanager
     def silence(self) -> Iterator[None]:

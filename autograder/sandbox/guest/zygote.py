@@ -24,7 +24,8 @@ from typing import Any
 import numpy as np
 
 from autograder.sandbox import system
-from autograder.sandbox.guest import child, confine, seccomp, tracebacks
+from autograder.sandbox.guest import child, confine, rehearsal, seccomp, tracebacks
+from autograder.sandbox.guest.peer import NoAnswer
 from autograder.sandbox.guest.shell import Shell
 
 NUMPY = ("numpy.random", "numpy.linalg", "numpy.polynomial", "numpy.ma")  # numpy loads these when they are first used
@@ -148,10 +149,8 @@ def _warm_up(shell: Shell, preload: list[str]) -> None:
             with contextlib.suppress(Exception):
                 shell.rehearse_showing(figure())
         tracebacks.prepare()
-        for source in ("1 / 0", *tracebacks.NUMPY):
-            shell.rehearse(source)
-        if "directrix.plot" in sys.modules:  # the commonest mistakes: a traceback through the library reads its files
-            shell.rehearse("__import__('directrix.plot').plot.view(lambda u, w: u + w)")
+        with contextlib.suppress(Exception, NoAnswer):
+            rehearsal.rehearse(shell)
 
 
 def _take_arrays_as_they_are() -> None:

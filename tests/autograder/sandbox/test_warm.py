@@ -41,3 +41,39 @@ def test_plotly_takes_arrays_as_they_are():
         )
     assert result.status == "ok", result.outputs
     assert result.outputs[0]["text"] == "True True\n"
+
+
+def test_what_is_rehearsed_leaves_its_speed(sandbox):
+    with sandbox.open() as notebook:
+        result = notebook.run_cell(
+            "import stack_data, sys\n"
+            "read = {name.rpartition('/')[2] for name, _ in stack_data.Source._class_local('__source_cache_with_lines', {})}\n"
+            "print(sorted(read & {'crossing.py', 'peer.py', 'numeric.py'}), 'encodings.ascii' in sys.modules)"
+        )
+    assert result.status == "ok", result.outputs
+    assert result.outputs[0]["text"] == "['crossing.py', 'numeric.py', 'peer.py'] True\n"
+
+
+def test_what_is_rehearsed_leaves_nothing_else(sandbox):
+    with sandbox.open() as notebook:
+        first = notebook.run_cell("print(sorted(globals()))")
+        then = notebook.run_cell(
+            "import asyncio, linecache, signal, sys\n"
+            "shell = get_ipython()\n"
+            "history, cells = shell.history_manager, [name for name in linecache.cache if name.startswith('<ipython')]\n"
+            "print(In[:2], Out, [_, __, ___], [_ii, _iii], shell.execution_count, asyncio.current_task().get_name())\n"
+            "print(cells == list(shell.compile._filename_map), len(cells), hasattr(sys, 'last_value'), signal.getsignal(10))\n"
+            "print(list(history.outputs), history.exceptions, history.output_hist_reprs)\n"
+            "print([row[0] for row in history.db_input_cache], history.db_output_cache)"
+        )
+    assert first.outputs[0]["text"] == (
+        "['In', 'Out', '_', '__', '___', '__builtin__', '__builtins__', '__doc__', '__loader__', '__name__', '__package__', "
+        "'__spec__', '_dh', '_i', '_i1', '_ih', '_ii', '_iii', '_oh', 'exit', 'get_ipython', 'open', 'quit']\n"
+    )
+    assert then.status == "ok", then.outputs
+    assert then.outputs[0]["text"].splitlines() == [
+        "['', 'print(sorted(globals()))'] {} ['', '', ''] ['', ''] 3 Task-2",
+        "True 2 False 0",
+        "[1, 2] {} {}",
+        "[1, 2] []",
+    ]
