@@ -95,7 +95,9 @@ class Tests:
             if step.name == name:
                 break
             if not step.test and number not in ran:
-                self._run(number, _imports(step.source) if step.solution else step.source)
+                text = _imports(step.source) if step.solution else step.source
+                if text and not text.isspace():  # an empty cell does nothing and has no number
+                    self._run(number, text)
         return self._run(-1, source)
 
     def _run(self, number: int, source: str) -> Any:

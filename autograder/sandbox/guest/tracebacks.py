@@ -1,8 +1,9 @@
 """Tracebacks without working out the same things for each: done once in the zygote, every notebook's process has it.
 
-IPython colours a traceback with pygments. For each traceback a style is derived and turned into escape sequences, and for each
-frame of it a reader of Python is derived that changes nothing in the grammar and works all of it out again. Together
-that takes longer than the colouring itself. What comes out is the same, character for character.
+IPython asks of each frame which module it is in; of a cell's, Python looks through all modules, twice, to say that it is in
+none. It colours a traceback with pygments: for each traceback a style is derived and turned into escape sequences, and for each
+frame of it a reader of Python is derived that changes nothing in the grammar and works all of it out again. Together that takes
+longer than the colouring itself. What comes out is the same, character for character.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from __future__ import annotations
 import contextlib
 import functools
 import importlib
+import inspect
+import types
 from typing import Any
 
 # What learners' arrays run into most often; a traceback through a file of numpy's parses all of that file.
@@ -22,7 +25,7 @@ NUMPY = (
 
 def prepare() -> None:
     """Make the libraries keep what they work out; another version of one, which lacks a place where to, is left as it is."""
-    for keep in (_grammars, _styles, _escapes):
+    for keep in (_grammars, _styles, _escapes, _modules):
         with contextlib.suppress(ImportError, AttributeError):
             keep()
 
@@ -61,3 +64,16 @@ def _escapes() -> None:
         self.style_string = dict(found[key])
 
     formatter._setup_styles = _setup_styles
+
+
+def _modules() -> None:
+    """A frame of a cell is in no module's file."""
+    look = inspect.getmodule
+
+    @functools.wraps(look)
+    def getmodule(object: Any, _filename: str | None = None) -> types.ModuleType | None:
+        if type(object) is types.FrameType and object.f_code.co_filename.startswith("<ipython-input-"):
+            return None
+        return look(object, _filename)
+
+    inspect.getmodule = getmodule

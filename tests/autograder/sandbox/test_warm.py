@@ -32,6 +32,20 @@ def test_a_traceback_takes_the_grammar_and_the_style_that_are_there(sandbox):
     ]
 
 
+def test_a_frame_of_a_cell_is_in_no_module(sandbox):
+    with sandbox.open() as notebook:
+        result = notebook.run_cell(
+            "import inspect, json, sys\n"
+            "stock = inspect.getmodule.__wrapped__\n"
+            "print(inspect.getmodule(sys._getframe()), stock(sys._getframe()), inspect.getmodule(json.dumps) is json)\n"
+            "print(inspect.getsource(sys._getframe()).splitlines()[0], inspect.getmodule(inspect.currentframe().f_back))\n"
+        )
+    assert result.status == "ok", result.outputs
+    first, second = result.outputs[0]["text"].splitlines()
+    assert first == "None None True"
+    assert second.startswith("import inspect, json, sys <module 'IPython.core.interactiveshell'")
+
+
 def test_plotly_takes_arrays_as_they_are():
     with Sandbox(Policy()) as box, box.open() as notebook:
         result = notebook.run_cell(
