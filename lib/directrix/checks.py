@@ -208,7 +208,7 @@ def parameter(name: str, value: ArrayLike) -> Array:
     given = real(name, value)
     if given.size == 0:
         return given
-    least, most = given.min(), given.max()
+    least, most = np.minimum.reduce(given, axis=None), np.maximum.reduce(given, axis=None)  # as min and max, but quicker
     if least >= 0 and most <= 1:
         return given
     if not (least >= -EDGE and most <= 1 + EDGE):  # written so that NaN lands here too

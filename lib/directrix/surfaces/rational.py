@@ -32,14 +32,19 @@ def cartesian(parts: dict[Order, Array], orders: Sequence[Order], out: Array | N
     """
     rule = _rule(tuple(orders))
     places = {} if out is None else dict(zip(orders, out, strict=True))
-    h = parts[rule[0][0]][3]
+    h = parts[rule[0][0]][3, ...]
     done: dict[Order, Array] = {}
-    scratch = np.empty((3, *h.shape)) if len(rule) > 1 else h
+    scratch = h
+    over_h: np.ufunc = np.divide
+    if len(rule) > 1:
+        scratch = np.empty((3, *h.shape))
+        np.reciprocal(h, out=h)  # in place: of several derivatives one division a point, and the rest products
+        over_h = np.multiply
     for k, terms in rule:
         value = parts[k][:3]  # worked on in place: fresh memory costs more here than arithmetic
         for ways, i, rest in terms:
             value -= np.multiply(done[rest], parts[i][3] if ways == 1 else ways * parts[i][3], out=scratch)
-        done[k] = np.divide(value, h, out=places.get(k, value))
+        done[k] = over_h(value, h, out=places.get(k, value))
     return [done[order].transpose(*range(1, h.ndim + 1), 0) for order in orders]
 
 

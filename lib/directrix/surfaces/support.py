@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from scipy.interpolate import BSpline, NdBSpline
 
 FEW = 1000  # points up to which scipy's evaluator, one point after the other, beats the sparse product
-BLOCK = 6144  # points at a time, fewer for high orders: what stays in a processor's cache
+BLOCK = 4096  # points at a time, fewer for high orders: what stays in a processor's cache
 
 Order = tuple[int, int]
 
