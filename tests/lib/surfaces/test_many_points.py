@@ -138,7 +138,7 @@ def test_a_span_table_is_the_search(seed):
 
 
 def test_what_is_prepared_is_not_part_of_the_form():
-    """Tables and windows are made when first needed; equality, hash and pickles do not see them."""
+    """Tables and pieces are made when first needed; equality, hash and pickles do not see them."""
     rng = np.random.default_rng(6)
     patch = dx.BSplinePatch(rng.random((5, 5, 3)), 4, 4)
     twin = dx.BSplinePatch(patch.control_net, 4, 4)
