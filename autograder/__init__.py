@@ -5,6 +5,7 @@ In a notebook: ``from autograder import check``, then ``check(cylinder)``. From 
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -24,3 +25,9 @@ def __getattr__(name: str) -> Any:
         globals()[name] = value
         return value
     raise AttributeError(f"module 'autograder' has no attribute {name!r}")
+
+
+if os.environ.get("DIRECTRIX_MESSAGES"):
+    from autograder.translation import install
+
+    install()

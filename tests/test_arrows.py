@@ -33,6 +33,7 @@ AUTOGRADER = {
     "personal": (),
     "exercise": ("result", "curvedata", "personal"),
     "messages": ("exercise",),
+    "translation": ("messages",),
     "comparison": ("messages",),
     "diagnosis": ("comparison",),
     "judge": ("diagnosis",),

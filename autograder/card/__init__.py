@@ -14,11 +14,11 @@ from autograder.card.content import LETTERS as LETTERS
 from autograder.card.content import LONGEST as LONGEST
 from autograder.card.content import LONGEST_NOTE as LONGEST_NOTE
 from autograder.card.content import OUTCOMES as OUTCOMES
-from autograder.card.content import PARTS as PARTS
-from autograder.card.content import TIERS as TIERS
+from autograder.card.content import SIGNS as SIGNS
 from autograder.card.content import Card as Card
 from autograder.card.content import of as of
 from autograder.card.content import with_parts as with_parts
+from autograder.card.content import word_of as word_of
 from autograder.card.content import worth as worth
 from autograder.card.drawing import FIGURE_KINDS as FIGURE_KINDS
 from autograder.card.drawing import FIGURE_NUMBERS as FIGURE_NUMBERS

@@ -9,37 +9,36 @@ from itertools import groupby
 from operator import itemgetter
 
 from autograder.messages import amount, number, say
-from autograder.result import Case, Outcome, Tier, Verdict
+from autograder.result import PARTS, Case, Outcome, Tier, Verdict
 
-# What the outcome is called, its sign, and the ground of its badge: white text has a contrast of at least 5 on each.
-OUTCOMES: dict[Outcome, tuple[str, str, str]] = {
-    "passed": ("Right", "✓", "#00704F"),
-    "partial": ("Partly right", "◐", "#8A5A00"),
-    "failed": ("Not right yet", "✗", "#A8430A"),
-    "not run": ("Nothing to judge yet", "○", "#5F6670"),
-    "could not judge": ("Could not be judged", "?", "#7A3E8E"),
+# The sign of each outcome, and the ground of its badge: white text has a contrast of at least 5 on each.
+OUTCOMES: dict[Outcome, tuple[str, str]] = {
+    "passed": ("✓", "#00704F"),
+    "partial": ("◐", "#8A5A00"),
+    "failed": ("✗", "#A8430A"),
+    "not run": ("○", "#5F6670"),
+    "could not judge": ("?", "#7A3E8E"),
 }
-# Each rung in the words of a table, with a sign of its own.
-TIERS: dict[Tier, tuple[str, str]] = {
-    "identical": ("✓", "right"),
-    "mistake": ("✗", "a known slip"),
-    "relabelled": ("⇄", "right, but its parameters are labelled otherwise"),
-    "other start": ("↻", "right, but starts elsewhere"),
-    "close": ("≈", "close, not equal"),
-    "same set": ("≅", "right set of points, traced otherwise"),
-    "covered": ("≅", "right set of points, covered more than once"),
-    "part": ("⊂", "a part of it"),
-    "more": ("⊃", "more than it"),
-    "moved": ("↷", "right shape, other place or size"),
-    "different": ("✗", "different"),
-    "error": ("!", "no answer"),
-    "timeout": ("!", "took too long"),
-    "shape": ("!", "wrong shape of the answer"),
-    "not finite": ("!", "not finite"),
-    "not pointwise": ("!", "not point by point"),
-    "not repeatable": ("!", "not repeatable"),
+SIGNS: dict[Tier, str] = {
+    "identical": "✓",
+    "mistake": "✗",
+    "relabelled": "⇄",
+    "other start": "↻",
+    "close": "≈",
+    "same set": "≅",
+    "covered": "≅",
+    "part": "⊂",
+    "more": "⊃",
+    "moved": "↷",
+    "different": "✗",
+    "error": "!",
+    "timeout": "!",
+    "shape": "!",
+    "not finite": "!",
+    "not pointwise": "!",
+    "not repeatable": "!",
 }
-PARTS = {"right": "What holds", "wrong": "What does not", "where": "Where", "look": "Next"}
+COLUMNS = ("off", "at", "yours", "reference")  # of the table, where some data set has something to say
 LETTERS = {1: ("u",), 2: ("u", "w"), 3: ("u", "v", "w")}
 LONGEST = 1200  # characters of one part
 LONGEST_NOTE = 2400
@@ -58,15 +57,20 @@ class Card:
 
 def of(verdict: Verdict, notes: Iterable[tuple[str, str]] = ()) -> Card:
     """The card of a verdict, with notes (heading, text) such as what the function printed."""
-    named = [(PARTS.get(name, name.capitalize()), text) for name, text in verdict.parts if text]
+    named = [(heading(name), text) for name, text in verdict.parts if text]
     # Sentences that follow each other under one heading are one paragraph.
     parts = [(name, " ".join(text for _, text in said)) for name, said in groupby(named, key=itemgetter(0))]
     if not parts and verdict.message:
         parts = [("", verdict.message)]
     if verdict.terms:
-        parts.append(("Worth", worth(verdict)))
+        parts.append((say("part.worth"), worth(verdict)))
     cases = verdict.cases if verdict.outcome != "not run" else ()
     return Card(verdict.outcome, verdict.title or verdict.exercise, tuple(parts), cases, tuple(notes))
+
+
+def heading(part: str) -> str:
+    """The heading of a part; that of a foreign verdict is called as it calls it."""
+    return say(f"part.{part}") if part in PARTS else part.capitalize()
 
 
 def worth(verdict: Verdict) -> str:
@@ -91,9 +95,9 @@ def all_alike(cases: Sequence[Case]) -> str:
     names = [_data_of(case) for case in cases]
     hidden = sum(case.hidden for case in cases)
     shown = [name for name, case in zip(names, cases, strict=True) if not case.hidden]
-    shown += [f"{hidden} hidden"] if hidden else []
-    many = f"on all {len(cases)}: " if len(cases) > 1 else "on "
-    return f"{results.pop()} {many}{', '.join(shown)}"
+    shown += [say("table.many_hidden", count=hidden)] if hidden else []
+    key = "table.all" if len(cases) > 1 else "table.one"
+    return say(key, result=results.pop(), count=len(cases), names=", ".join(shown))
 
 
 def by_name(cases: Sequence[Case]) -> list[tuple[str, Case]]:
@@ -102,30 +106,33 @@ def by_name(cases: Sequence[Case]) -> list[tuple[str, Case]]:
     hidden = [case for case in cases if case.hidden]
     for result in dict.fromkeys(map(result_of, hidden)):
         alike = [case for case in hidden if result_of(case) == result]
-        rows.append((f"{len(alike)} hidden" if len(alike) > 1 else _data_of(alike[0]), alike[0]))
+        rows.append((say("table.many_hidden", count=len(alike)) if len(alike) > 1 else _data_of(alike[0]), alike[0]))
     return rows
 
 
 def columns_of(cases: Sequence[Case]) -> list[str]:
     """Only the columns in which some data set has something to say."""
     told = [worst_of(case) for case in cases]
-    return [
-        "data set",
-        "result",
-        *(name for name in ("off by", "at", "yours", "reference") if any(row.get(name) for row in told)),
-    ]
+    return ["data", "result", *(name for name in COLUMNS if any(row.get(name) for row in told))]
 
 
 def _data_of(case: Case) -> str:
-    return f"{case.data} (hidden)" if case.hidden else f"{case.data} (blind)" if case.blind else case.data
+    name = case.data
+    return say("table.hidden", name=name) if case.hidden else say("table.blind", name=name) if case.blind else name
+
+
+def word_of(outcome: Outcome) -> str:
+    """What an outcome is called on its badge."""
+    return say(f"outcome.{outcome.replace(' ', '_')}")
 
 
 def result_of(case: Case) -> str:
     """The rung of a data set with its sign, and the slip by its name."""
-    sign, said = TIERS[case.tier]
     if case.mistake and case.tier != "identical":
-        said = say("tier.named_mistake", name=case.mistake)
-    return f"{sign} {said}"
+        said = say("tier.mistake_named", name=case.mistake)
+    else:
+        said = say(f"tier.{case.tier.replace(' ', '_')}")
+    return f"{SIGNS[case.tier]} {said}"
 
 
 def worst_of(case: Case) -> dict[str, str]:
@@ -134,7 +141,7 @@ def worst_of(case: Case) -> dict[str, str]:
         return {}
     told: dict[str, str] = {}
     if case.deviation is not None and math.isfinite(case.deviation):
-        told["off by"] = amount(case.deviation)
+        told["off"] = amount(case.deviation)
     if case.where:
         names = LETTERS.get(len(case.where), tuple(f"t{i}" for i in range(len(case.where))))
         values = ", ".join(f"{value:.4g}" for value in case.where)

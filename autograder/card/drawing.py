@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 from directrix.plot import compare
 from directrix.plot.palette import CONFIG
+from directrix.plot.wording import WORDS
 
-from autograder.messages import say
+from autograder.messages import TEXT, say
 from autograder.result import Figure, Verdict
 
 PLOTLY = "application/vnd.plotly.v1+json"
@@ -67,6 +68,8 @@ def _drawn(drawn: Figure, *, same: bool) -> dict[str, Any]:
         title=say("figure.layer", layer=drawn.layer) if drawn.layer else None,
         same=same,
         letters=drawn.names or None,
+        names=(say("figure.reference"), say("figure.yours")),
+        words={name: TEXT[f"figure.{name}"] for name in WORDS},
     )
     return validated(built)
 
@@ -76,7 +79,10 @@ def figure_bundle(verdict: Verdict) -> dict[str, Any] | None:
     built = figure(verdict)
     if built is None:
         return None
-    return {"text/plain": f"[figure: {built['layout']['meta']['alt']}]", PLOTLY: {**built, "config": dict(CONFIG)}}
+    return {
+        "text/plain": say("figure.described", alt=built["layout"]["meta"]["alt"]),
+        PLOTLY: {**built, "config": dict(CONFIG)},
+    }
 
 
 def validated(built: Mapping[str, Any]) -> dict[str, Any]:

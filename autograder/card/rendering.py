@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from autograder.card.content import (
+    COLUMNS,
     LONGEST,
     LONGEST_NOTE,
     OUTCOMES,
@@ -19,8 +20,10 @@ from autograder.card.content import (
     of,
     printable,
     result_of,
+    word_of,
     worst_of,
 )
+from autograder.messages import say
 from autograder.result import Case, Verdict
 
 STYLE_PROPERTIES = frozenset(
@@ -36,10 +39,10 @@ SHORT = 22  # characters of a cell of the table that stay on one line
 def html(verdict: Verdict | Card) -> str:
     """The card as an HTML fragment. Everything that came from outside is escaped."""
     card = verdict if isinstance(verdict, Card) else of(verdict)
-    word, sign, ground = OUTCOMES[card.outcome]
+    sign, ground = OUTCOMES[card.outcome]
     badge = (
         f'<span style="background-color: {ground}; color: #ffffff; font-weight: bold; padding: 2px 9px; border-radius: 9px; '
-        f'white-space: nowrap">{sign}&nbsp;{_escape(word)}</span>'
+        f'white-space: nowrap">{sign}&nbsp;{_escape(word_of(card.outcome))}</span>'
     )
     body = [
         f'<div style="margin: 0 0 6px 0">{badge}&nbsp; <b>{_escape(card.title)}</b></div>',
@@ -56,15 +59,15 @@ def html(verdict: Verdict | Card) -> str:
 def text(verdict: Verdict | Card) -> str:
     """The card as plain text: all that the HTML says."""
     card = verdict if isinstance(verdict, Card) else of(verdict)
-    word, sign, _ = OUTCOMES[card.outcome]
-    lines = [f"[{sign} {word}] {clean(card.title)}"]
+    sign, _ = OUTCOMES[card.outcome]
+    lines = [f"[{sign} {word_of(card.outcome)}] {clean(card.title)}"]
     for heading, said in card.parts:
         shown = clean(said, LONGEST).replace("`", "")
         lines.append(f"{clean(heading)}: {shown}" if heading else shown)
     if alike := all_alike(card.cases):
-        lines.append(f"Data sets: {clean(alike, LONGEST)}")
+        lines.append(f"{say('table.sets')}: {clean(alike, LONGEST)}")
     elif card.cases:
-        lines.append("Data sets:")
+        lines.append(f"{say('table.sets')}:")
         lines += [
             f"  {sign} {': '.join(part for part in (name, said) if part)}" for sign, name, said in _rows_as_text(card.cases)
         ]
@@ -97,15 +100,16 @@ def _table(cases: Sequence[Case]) -> str:
     if not cases:
         return ""
     if said := all_alike(cases):
-        return f'<div style="margin: 3px 0"><b>Data sets:</b> {_escape(said)}</div>'
+        return f'<div style="margin: 3px 0"><b>{_escape(say("table.sets"))}:</b> {_escape(said)}</div>'
     columns = columns_of(cases)
     letters = {told["at"].rsplit(" = ", 1)[0] for case in cases if "at" in (told := worst_of(case))}
     at = letters.pop() if len(letters) == 1 else ""  # said once, in the head
-    head = "".join(_cell(f"at {at}" if at and name == "at" else name, "th") for name in columns)
+    heads = [f"{say(f'table.{name}')}{f' {at}' if name == 'at' and at else ''}" for name in columns]
+    head = "".join(_cell(text, "th") for text in heads)
     plain = '<tr style="background-color: transparent">'  # JupyterLab would stripe the rows
     rows = [f"{plain}{head}</tr>"]
     for name, case in by_name(cases):
-        cells = {"data set": name, "result": result_of(case), **worst_of(case)}
+        cells = {"data": name, "result": result_of(case), **worst_of(case)}
         cells["at"] = cells.get("at", "").removeprefix(f"{at} = ")
         rows.append(plain + "".join(_cell(cells.get(name, "")) for name in columns) + "</tr>")
     return (
@@ -128,10 +132,7 @@ def _rows_as_text(cases: Sequence[Case]) -> Iterable[tuple[str, str, str]]:
     for name, case in by_name(cases):
         sign, said = result_of(case).split(" ", 1)
         told = worst_of(case)
-        more = [f"off by {told['off by']}"] if "off by" in told else []
-        more += [f"at {told['at']}"] if "at" in told else []
-        more += [f"yours {told['yours']}"] if "yours" in told else []
-        more += [f"reference {told['reference']}"] if "reference" in told else []
+        more = [f"{say(f'table.{column}')} {told[column]}" for column in COLUMNS if column in told]
         yield sign, clean(name), clean("; ".join([said, *more]))
 
 

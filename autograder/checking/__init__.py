@@ -24,6 +24,7 @@ from autograder.checking.signature import trouble_with
 from autograder.errors import CheckFailed, CourseError
 from autograder.exercise import PUBLIC_SEED, Exercise
 from autograder.judge import judge
+from autograder.messages import say
 from autograder.result import Verdict
 
 __all__ = ["check", "judge_function"]
@@ -97,7 +98,7 @@ def _show(exercise: Exercise, f: Callable[..., Any], verdict: Verdict, learner: 
         more.append(advice.older_version(exercise.id, stale))
     trouble = trouble_with(exercise, f)
     if trouble is not None and verdict.outcome != "passed":
-        more.append(("Arguments", trouble.said))
+        more.append((say("part.arguments"), trouble.said))
     shell.show(card.bundle(card.with_parts(shown, more)))
     figure = card.figure_bundle(verdict)
     if figure is not None and shell.shows_figures():
@@ -110,15 +111,12 @@ def _missing(name: str) -> dict[str, Any]:
 
 def _stop(shown: card.Card) -> NoReturn:
     shell.show(card.bundle(shown))
-    raise CheckFailed(f"{shown.title}: see the card above.") from None
+    raise CheckFailed(say("stop.card", title=shown.title)) from None
 
 
 def _short(exercise: Exercise, verdict: Verdict) -> str:
-    if verdict.outcome == "not run":
-        return f"{exercise.id} is not written yet; the card above says what to do."
-    if verdict.outcome == "could not judge":
-        return f"{exercise.id} could not be judged; the card above says why. It is not your fault."
-    return f"{exercise.id} is not right yet; the card above says what to look at."
+    key = {"not run": "stop.not_written", "could not judge": "stop.not_judged"}.get(verdict.outcome, "stop.not_right")
+    return say(key, id=exercise.id)
 
 
 def _refuse_to_grade() -> None:

@@ -20,6 +20,7 @@ import numpy as np
 
 from autograder.checking import shell
 from autograder.errors import CallFailed
+from autograder.messages import say
 
 KEPT = 2000  # characters of what is printed
 LINES = 12
@@ -80,16 +81,16 @@ class Learner:
             return
         if len(self.warned) < WARNINGS:
             source = linecache.getline(filename, lineno).strip()
-            place = f"line {lineno}: {source[:120]}" if source else f"line {lineno}"
+            place = say("heard.source", line=lineno, source=source[:120]) if source else say("heard.line", line=lineno)
             self.warned[f"{category.__name__}: {' '.join(str(message).split())[:200]}\n    {place}"] = None
 
     def notes(self) -> list[tuple[str, str]]:
         """What the function printed and what warned of it, for the card."""
         told = []
         if self.warned:
-            told.append(("While it ran, Python warned", "\n".join(self.warned)))
+            told.append((say("part.warned"), "\n".join(self.warned)))
         if self.printed.total:
-            told.append((f"Your function printed (it was called {self.calls} times)", self.printed.shown()))
+            told.append((say("part.printed", calls=self.calls), self.printed.shown()))
         return told
 
 
@@ -115,8 +116,9 @@ class Heard(io.TextIOBase):
         """The beginning, and how much more there was."""
         lines = [_counted(line, len(list(same))) for line, same in groupby(self.kept.splitlines())]
         text = "\n".join(lines[:LINES])
-        return text if self.total <= KEPT and len(lines) <= LINES else f"{text}\n… ({self.total} characters in all)"
+        whole = self.total <= KEPT and len(lines) <= LINES
+        return text if whole else f"{text}\n… {say('heard.all', count=self.total)}"
 
 
 def _counted(line: str, times: int) -> str:
-    return line if times == 1 else f"{line}    ({times} times)"
+    return line if times == 1 else f"{line}    {say('heard.times', count=times)}"

@@ -18,6 +18,7 @@ from types import TracebackType
 from typing import Any
 
 from autograder.errors import CheckFailed
+from autograder.messages import say
 
 REMEMBERED = 20
 
@@ -142,7 +143,7 @@ def _defines(cell: str) -> set[str]:
 
 def _on_name_error(here: Any, kind: type, error: BaseException, trace: TracebackType, tb_offset: int | None = None) -> None:
     """IPython calls this instead of showing a NameError."""
-    bundle = None
+    bundle = name = None
     with contextlib.suppress(Exception):  # a fault of ours must not hide the learner's error
         name = _checked_name(error, trace)
         if name is not None and _listener is not None:
@@ -151,7 +152,7 @@ def _on_name_error(here: Any, kind: type, error: BaseException, trace: Traceback
         here.showtraceback((kind, error, trace), tb_offset=tb_offset, running_compiled_code=True)
         return
     show(bundle)
-    failed = CheckFailed(f"{getattr(error, 'name', 'it')} is not defined; see the card above.")
+    failed = CheckFailed(say("stop.not_defined", name=name))
     here._showtraceback(CheckFailed, failed, failed._render_traceback_())
 
 

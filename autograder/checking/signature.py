@@ -10,6 +10,7 @@ from typing import Any
 
 from autograder.card import Card
 from autograder.exercise import Exercise
+from autograder.messages import say
 
 
 @dataclass(frozen=True)
@@ -26,10 +27,10 @@ class Trouble:
             "failed",
             exercise.title,
             (
-                ("What does not", f"Your function does not take the arguments of the task. {self.said}"),
-                ("Wanted", f"`def {exercise.signature}:`"),
-                ("Yours", f"`def {self.yours}:`"),
-                ("Next", "The names are yours to choose, but their number and order are fixed: u and w come first."),
+                (say("part.wrong"), say("check.signature", said=self.said)),
+                (say("part.wanted"), f"`def {exercise.signature}:`"),
+                (say("part.yours"), f"`def {self.yours}:`"),
+                (say("part.look"), say("check.signature.look")),
             ),
         )
 
@@ -52,17 +53,17 @@ def trouble_with(exercise: Exercise, f: Callable[..., Any]) -> Trouble | None:
     yours = f"{exercise.id}({', '.join(map(_written, given))})"
     takes_any = any(one.kind is one.VAR_POSITIONAL for one in given)
     if forced:
-        return Trouble(f"{_list(forced)} can only be given by name (they stand behind a *).", yours, callable=False)
+        return Trouble(say("check.signature.by_name", names=_list(forced)), yours, callable=False)
     if len(needed) > len(wanted) or (len(names) < len(wanted) and not takes_any):
         return Trouble(_difference(wanted, names, needed), yours, callable=False)
     if takes_any or names[: len(wanted)] == wanted:
         return None
     if sorted(names[: len(wanted)]) == sorted(wanted):
-        orders = f"the task has ({', '.join(wanted)}), yours has ({', '.join(names)})"
-        return Trouble(f"Their order differs: {orders}. The call is by position.", yours, callable=True)
+        orders = {"wanted": ", ".join(wanted), "yours": ", ".join(names)}
+        return Trouble(say("check.signature.order", **orders), yours, callable=True)
     pairs = [(name, want) for want, name in zip(wanted, names, strict=False) if want != name]
-    renamed = "; ".join(f"`{name}` where the task says `{want}`" for name, want in pairs)
-    return Trouble(f"Yours has other names: {renamed}. That is allowed, if they mean the same.", yours, callable=True)
+    renamed = "; ".join(say("check.signature.where", yours=name, wanted=want) for name, want in pairs)
+    return Trouble(say("check.signature.renamed", names=renamed), yours, callable=True)
 
 
 def _difference(wanted: list[str], names: list[str], needed: list[str]) -> str:
@@ -75,10 +76,10 @@ def _difference(wanted: list[str], names: list[str], needed: list[str]) -> str:
         if like is not None:
             missing.remove(name)
             extra.remove(like)
-            renamed.append(f"`{name}` is called `{like}`.")
-    said = [f"Missing: {_list(missing)}."] if missing else []
-    said += [f"Too many: {_list(extra)}."] if extra else []
-    return " ".join([*said, *renamed]) or f"It takes {len(names)} arguments, wanted are {len(wanted)}."
+            renamed.append(say("check.signature.called", wanted=name, yours=like))
+    said = [say("check.signature.missing", names=_list(missing))] if missing else []
+    said += [say("check.signature.extra", names=_list(extra))] if extra else []
+    return " ".join([*said, *renamed]) or say("check.signature.count", yours=len(names), wanted=len(wanted))
 
 
 def _list(names: list[str]) -> str:

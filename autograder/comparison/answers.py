@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from autograder.errors import CallFailed, FailureKind, SandboxError
+from autograder.messages import say
 
 Array: TypeAlias = NDArray[np.float64]
 Reason = Literal["none", "complex", "text", "ragged", "parts", "function", "object"]
@@ -128,7 +129,7 @@ def read(value: Any, *, whole: bool = True) -> Answer:
         return _pieces(value)
     if array.dtype.kind in "biuf":
         if array.size > MOST_VALUES:
-            return Unreadable("object", {"type": f"an array of {array.size} numbers, more than {MOST_VALUES}"})
+            return Unreadable("object", {"type": say("told.large", count=array.size, most=MOST_VALUES)})
         was = {"b": "bool", "i": "int", "u": "int", "f": "float"}[array.dtype.kind]
         return Numbers(np.array(array, dtype=float), was)
     if array.dtype.kind == "c":
@@ -154,7 +155,7 @@ def _pieces(value: Any) -> Unreadable:
             break
         shapes.append(inner.values.shape)
     if len(items) in (2, 3) and len(shapes) == len(items):
-        names = ", ".join(f"{name} of shape {shape}" for name, shape in zip("xyz", shapes, strict=False))
+        names = ", ".join(say("told.coordinate", name=name, shape=shape) for name, shape in zip("xyz", shapes, strict=False))
         return Unreadable("parts", {"parts": names})
     if shapes and len(shapes) == min(len(items), 4):
         return Unreadable("ragged", {"first": str(shapes[0]), "other": str(next((s for s in shapes if s != shapes[0]), ""))})

@@ -20,6 +20,7 @@ from autograder.comparison.maps import Sampled, agree
 from autograder.comparison.nearest import Evaluator
 from autograder.comparison.samples import Form
 from autograder.comparison.target import ROUNDING, Target
+from autograder.messages import listing, say
 from autograder.result import Tier
 
 LARGEST = 1e150  # beyond it squares of lengths, of which all comparisons are made, overflow
@@ -91,7 +92,7 @@ def _through(asked: Asked) -> Gated:
 def error_gate(failure: Raised) -> Gate:
     """The gate for a call that ended in an exception or in a limit."""
     facts = {
-        "exception": failure.exception or "an error",
+        "exception": failure.exception or say("told.error"),
         "message": failure.message,
         "line": failure.line,
         "source": failure.source.strip(),
@@ -176,7 +177,7 @@ def _given(target: Target, form: Form) -> str:
     if form == "scalar":
         return ""
     arrays = target.samples.columns() if form == "vector" else target.samples.open_mesh()
-    return " and ".join(sorted({str(a.shape) for a in arrays}, reverse=True))
+    return listing(sorted({str(a.shape) for a in arrays}, reverse=True))
 
 
 def _no_form(target: Target, asked: Asked, answers: dict[str, Answer | None], troubles: list[Trouble]) -> Gate:
@@ -309,7 +310,7 @@ def _as_surface(target: Target, answer: Answer, gated: Gated) -> None:
         gated.stopped = Gate("shape", "answer.no_surface", {"message": " ".join(str(failure).split())[:300]})
         return
     if values.shape != target.values.shape:
-        gated.stopped = Gate("shape", "answer.no_surface", {"message": f"it gives values of shape {values.shape}"})
+        gated.stopped = Gate("shape", "answer.no_surface", {"message": say("told.values", shape=values.shape)})
         return
     gated.sampled = Sampled(target, np.arange(len(values)), values)
     gated.stopped = _finite_gate(gated.sampled)

@@ -149,7 +149,7 @@ def spoken_answer(answer: Answer, was: str | None = None) -> str:
         if answer.values.ndim == 0:
             truth = (was or answer.was) == "bool"
             return spoken_truth(answer.values) if truth else number(float(answer.values), 6)
-        return f"an array of shape {answer.values.shape}" if answer.values.size > 4 else written(answer.values)
+        return say("told.array", shape=answer.values.shape) if answer.values.size > 4 else written(answer.values)
     if isinstance(answer, Word):
         return repr(answer.text[:40])
     if isinstance(answer, Several):

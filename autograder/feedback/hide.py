@@ -10,6 +10,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from autograder.messages import say
+
 _ANSI = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)?|[@-Z\\-_])|[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
 SHORTEST = 4  # letters of a line by which a traceback is recognised as one through a hidden test
 
@@ -55,9 +57,9 @@ def _without(output: Mapping[str, Any], hidden: Sequence[str]) -> dict[str, Any]
     if output["output_type"] == "error":
         if _mentions([*output["traceback"], output["evalue"]], hidden):
             name = output["ename"]
-            return {**output, "evalue": "in a hidden test", "traceback": [f"{name} in a hidden test"]}
+            return {**output, "evalue": say("feedback.hidden"), "traceback": [say("feedback.hidden_error", exception=name)]}
     elif output["output_type"] == "stream" and _mentions([output["text"]], hidden):
-        return {**output, "text": "(not shown: it quotes a hidden test)\n"}
+        return {**output, "text": say("feedback.hidden_text") + "\n"}
     return dict(output)
 
 

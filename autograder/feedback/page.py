@@ -23,6 +23,7 @@ from pygments.lexers import Python3Lexer  # type: ignore[import-untyped]
 
 from autograder.feedback.hide import Hidden, strip_ansi
 from autograder.feedback.markdown import FindImage, to_html
+from autograder.messages import TEXT, say
 from autograder.notebook.master import checked_name
 from autograder.notebook.safe import FIGURE, IMAGES, clean_html, figure, picture
 
@@ -73,8 +74,8 @@ def render(notebook: Mapping[str, Any], sheet: Sheet, *, hidden: Hidden | None =
     drawn = any(cell["figures"] for cell in cells)
     head, policy = _scripts() if drawn else ("", _policy())
     return _template().render(
-        sheet=sheet, cells=cells, head=Markup(head), policy=policy, style=Markup(_style()), points=_points,
-        listed=[cell for cell in cells if cell["scored"]],
+        sheet=sheet, cells=cells, head=Markup(head), policy=policy, style=Markup(_style()),
+        points=_points, bold=_bold, say=_say, listed=[cell for cell in cells if cell["scored"]],
     )  # fmt: skip
 
 
@@ -130,7 +131,7 @@ def _shown(data: Mapping[str, Any]) -> tuple[str, bool]:
     for mime in IMAGES:
         shown = picture(mime, data.get(mime))
         if shown is not None:
-            words = Markup.escape(str(data.get("text/plain", "a picture")))
+            words = Markup.escape(str(data.get("text/plain") or say("feedback.picture")))
             return f'<img src="data:{mime};base64,{shown}" alt="{words}">', False
     if "text/markdown" in data:
         return to_html(data["text/markdown"]), False
@@ -164,6 +165,15 @@ def _code(source: str) -> str:
 
 def _points(value: float | None) -> str:
     return "–" if value is None else f"{round(value, 2):g}"
+
+
+def _bold(text: str) -> Markup:
+    return Markup("<b>{}</b>").format(text)
+
+
+def _say(key: str, **facts: str) -> Markup:
+    """A text of the catalogue, whose facts may be HTML already."""
+    return Markup(Markup.escape(TEXT[key])).format(**facts)
 
 
 @functools.cache

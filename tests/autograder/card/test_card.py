@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from autograder import card
+from autograder.messages import say
 from autograder.result import GATES, LADDER, Case, Figure, Verdict
 
 PARTS = (
@@ -77,7 +78,7 @@ class Flat(HTMLParser):
 def test_every_tier_has_words_and_a_sign(tier):
     """The table names the rung in words, and the sign beside it does not depend on colour."""
     shown = verdict(tier=tier)
-    sign, said = card.TIERS[tier]
+    sign, said = card.SIGNS[tier], say(f"tier.{tier.replace(' ', '_')}")
     for text in (card.text(shown), Flat(card.html(shown)).text):
         assert any(f"{sign} {data}{said}" in text for data in ("", "lecture: ", "drawn (hidden): "))
     if tier == "mistake":  # a slip that is told by its name needs fewer words
@@ -87,14 +88,14 @@ def test_every_tier_has_words_and_a_sign(tier):
 @pytest.mark.parametrize("outcome", card.OUTCOMES)
 def test_every_outcome_is_a_word_a_sign_and_a_readable_badge(outcome):
     """White on each badge has a contrast of at least 5 (WCAG asks for 4.5), and no two outcomes share a sign."""
-    word, sign, ground = card.OUTCOMES[outcome]
+    word, (sign, ground) = card.word_of(outcome), card.OUTCOMES[outcome]
     shown = verdict(outcome=outcome)
     assert card.text(shown).startswith(f"[{sign} {word}] Cylinder from its known form")
     assert f"{sign} {word}" in Flat(card.html(shown)).text
     channels = [int(ground[i : i + 2], 16) / 255 for i in (1, 3, 5)]
     linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
     assert 1.05 / (np.dot(linear, [0.2126, 0.7152, 0.0722]) + 0.05) >= 5
-    assert [other[1] for other in card.OUTCOMES.values()].count(sign) == 1
+    assert [other for other, _ in card.OUTCOMES.values()].count(sign) == 1
 
 
 def test_text_alone_says_everything():

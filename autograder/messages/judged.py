@@ -1,20 +1,11 @@
-"""Everything the judge says to a learner: one catalogue, so that a translation is one file, of more than 400 lines.
+"""What the judge says of an answer, more than 400 lines since it is one list of sentences.
 
-A translation replaces the texts and keeps the keys and the names in braces. Hints of known mistakes are not here: they stand
-beside the mistake in the exercise. The tone: first what is right, then what is wrong, where, and one thing to look at; the
-geometry, never the solution.
+The tone: first what is right, then what is wrong, where, and one thing to look at; the geometry, never the solution.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable
-from typing import Any
-
-import numpy as np
-from numpy.typing import ArrayLike
-
-TEXT: dict[str, str] = {
+JUDGED: dict[str, str] = {
     # --- words
     "and": " and ",
     "noun.surface": "surface",
@@ -32,7 +23,11 @@ TEXT: dict[str, str] = {
     "hidden": "data that are not shown here",
     "amount.percent": "{number} % of its size",
     "amount.times": "{number} times its size",
-    "figure.layer": "The layer {layer} of the solid",
+    "told.array": "an array of shape {shape}",
+    "told.large": "an array of {count} numbers, more than {most}",
+    "told.values": "it gives values of shape {shape}",
+    "told.coordinate": "{name} of shape {shape}",
+    "told.error": "an error",
     "given.vector": "arrays of shape {shapes}",
     "given.mesh": "arrays of shape {shapes}",
     "given.scalar": "single numbers",
@@ -380,63 +375,6 @@ TEXT: dict[str, str] = {
     "repeat.other": "Called twice with the same arguments it gives two different answers.",
     "repeat.raised": "Called a second time with the same arguments it stops with {exception}: {message}",
     "look.repeat": "Look for random numbers, or for a list outside the function that grows.",
-    # --- the card
-    "tier.named_mistake": "slip: {name}",
     # --- the grader's own failure
     "own.failure": "This could not be judged; it is not your fault and costs no marks. Please tell your instructor: {message}",
 }
-
-
-def say(key: str, **facts: Any) -> str:
-    """One sentence of the catalogue with its facts filled in."""
-    return TEXT[key].format(**facts)
-
-
-def listing(names: Iterable[str]) -> str:
-    """``a, b and c``."""
-    every = list(names)
-    return TEXT["and"].join([", ".join(every[:-1]), every[-1]]) if len(every) > 1 else "".join(every)
-
-
-def number(x: float, digits: int = 4) -> str:
-    """A number with so many significant digits, without needless zeros; -0 is 0."""
-    if not math.isfinite(x):
-        return str(x)
-    return f"{x + 0.0:.{digits}g}" if x else "0"
-
-
-def written(value: ArrayLike, digits: int = 4) -> str:
-    """A number, or a point or a short vector in brackets."""
-    array = np.asarray(value)
-    if array.dtype == bool:
-        return str(bool(array)) if array.ndim == 0 else "(" + ", ".join(map(str, array.tolist())) + ")"
-    size = float(np.abs(array[np.isfinite(array)]).max(initial=0.0))
-    # Coordinates that are rounding errors beside the others are written 0.
-    cleaned = np.where(np.abs(array) < 1e-12 * size, 0.0, array)
-    if array.ndim == 0:
-        return number(float(cleaned), digits)
-    return "(" + ", ".join(number(float(x), digits) for x in cleaned.ravel()) + ")"
-
-
-def digits_for(deviation: float, size: float) -> int:
-    """So many significant digits that a deviation shows in a number of this size."""
-    if not (deviation > 0 and math.isfinite(deviation) and size > 0):
-        return 4
-    return min(max(4, math.ceil(-math.log10(deviation / size)) + 2), 15)
-
-
-def percent(share: float) -> str:
-    """A share of 1 as a percentage: ``0.16 %``, ``48 %``."""
-    return f"{number(100 * share, 2 if share < 1 else 3)} %"
-
-
-def amount(share: float) -> str:
-    """A length relative to the size: ``48 % of its size``, ``13 times its size``."""
-    if share >= 3:
-        return say("amount.times", number=number(share, 2))
-    return say("amount.percent", number=number(100 * share, 2 if share < 1 else 3))
-
-
-def place(names: tuple[str, ...], at: Iterable[float]) -> str:
-    """``u = 0.25, w = 1``."""
-    return ", ".join(f"{name} = {number(float(x))}" for name, x in zip(names, at, strict=True))
