@@ -17,7 +17,8 @@ from directrix.plot import compare
 from directrix.plot.palette import CONFIG
 from directrix.plot.wording import WORDS
 
-from autograder.messages import TEXT, say
+from autograder import messages
+from autograder.messages import say
 from autograder.result import Figure, Verdict
 
 PLOTLY = "application/vnd.plotly.v1+json"
@@ -69,7 +70,7 @@ def _drawn(drawn: Figure, *, same: bool) -> dict[str, Any]:
         same=same,
         letters=drawn.names or None,
         names=(say("figure.reference"), say("figure.yours")),
-        words={name: TEXT[f"figure.{name}"] for name in WORDS},
+        words={name: messages.TEXT[f"figure.{name}"] for name in WORDS},
     )
     return validated(built)
 

@@ -21,9 +21,10 @@ from markupsafe import Markup
 from pygments.formatters import HtmlFormatter  # type: ignore[import-untyped]
 from pygments.lexers import Python3Lexer  # type: ignore[import-untyped]
 
+from autograder import messages
 from autograder.feedback.hide import Hidden, strip_ansi
 from autograder.feedback.markdown import FindImage, to_html
-from autograder.messages import TEXT, say
+from autograder.messages import say
 from autograder.notebook.master import checked_name
 from autograder.notebook.safe import FIGURE, IMAGES, clean_html, figure, picture
 
@@ -173,7 +174,7 @@ def _bold(text: str) -> Markup:
 
 def _say(key: str, **facts: str) -> Markup:
     """A text of the catalogue, whose facts may be HTML already."""
-    return Markup(Markup.escape(TEXT[key])).format(**facts)
+    return Markup(Markup.escape(messages.TEXT[key])).format(**facts)
 
 
 @functools.cache

@@ -116,7 +116,6 @@ SHOWN: dict[str, str] = {
     "check.signature.called": "`{wanted}` is called `{yours}`.",
     "check.signature.missing": "Missing: {names}.",
     "check.signature.extra": "Too many: {names}.",
-    "check.signature.count": "It takes {yours} arguments, wanted are {wanted}.",
     # --- check: what its function printed and what Python warned of
     "heard.line": "line {line}",
     "heard.source": "line {line}: {source}",
