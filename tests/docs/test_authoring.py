@@ -112,3 +112,13 @@ def test_release_writes_the_public_word_and_not_the_secret(followed):
     assert (place / ".directrix" / "secret").read_text().strip() not in released
     source = json.loads((place / "source" / "A21" / "own-arch.ipynb").read_text())
     assert any('personal.course("workbook")' in "".join(cell["source"]) for cell in source["cells"])
+
+
+def test_the_translation_fits_the_catalogue(followed, monkeypatch):
+    """Every key and every name in braces that the page shows."""
+    from autograder import messages, translation
+
+    place, _ = followed
+    monkeypatch.setattr(messages, "TEXT", dict(messages.ENGLISH))
+    messages.use(translation.read(place / "german.json"))
+    assert messages.say("right.sets", data=messages.say("data.one", names="steep")) == "Richtig auf dem Datensatz steep."
