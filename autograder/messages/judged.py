@@ -1,4 +1,4 @@
-"""What the judge says of an answer, more than 400 lines since it is one list of sentences.
+"""What the judge says of an answer.
 
 The tone: first what is right, then what is wrong, where, and one thing to look at; the geometry, never the solution.
 """

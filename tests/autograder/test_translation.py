@@ -16,10 +16,13 @@ from autograder import card, messages, translation
 from autograder.catalogue import shipped
 from autograder.checking import advice, shell, signature
 from autograder.checking.calling import Learner
+from autograder.comparison.target import targets
 from autograder.diagnosis.wording import spoken
 from autograder.errors import CourseError
+from autograder.exercise import PUBLIC_SEED
 from autograder.feedback.hide import Hidden
 from autograder.feedback.page import Scored, Sheet, render
+from autograder.judge import judge
 from autograder.result import Case, Figure, Verdict
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "docs"))
@@ -95,6 +98,34 @@ def test_every_word_of_every_card_and_figure_is_translated(loud):
         left[name] = [word for text in shown for word in quiet_words(text, *known)]
     assert {name: words for name, words in left.items() if words} == {}
     assert drawn > 15
+
+
+def unlike(exercise):
+    """Answers to any exercise that are wrong in many ways, and its first listed mistake."""
+    yield lambda *arguments: None
+    yield lambda *arguments: 1j
+    yield lambda *arguments: np.nan
+    yield lambda *arguments: {}["q"]
+    if exercise.judged_as is None:  # or what its own function says of an answer stands on the card
+        yield lambda *arguments: "WORD"
+        yield lambda *arguments: np.zeros((2, 2))
+        yield lambda *arguments: (1.0, np.zeros(3))
+    yield exercise.mistakes[0].formula
+
+
+@pytest.mark.parametrize("exercise", list(shipped()), ids=lambda exercise: exercise.id)
+def test_every_word_of_the_card_of_any_exercise_is_translated(loud, exercise):
+    """Surfaces, curves, solids, fields, values, masks and words, with what is said of their data."""
+    known = [*of_the_assignment(exercise), "KeyError", "q", "True", "False", "None", "ValueError", "nan"]
+    for target in targets(exercise, PUBLIC_SEED):
+        words = [repr(value) for value in target.drawn.arguments.values() if isinstance(value, str)]
+        known += [target.drawn.says.rstrip("."), *words]
+    for answer in unlike(exercise):
+        verdict = judge(exercise, answer, figure=False, search=False)
+        words = [case.yours for case in verdict.cases if exercise.kind == "label" and case.yours]  # the learner's own
+        words += [word.strip("'") for word in words]
+        assert verdict.outcome != "could not judge"
+        assert quiet_words(card.text(verdict), *known, *words) == []
 
 
 def bowl(height, **more):
