@@ -2,6 +2,7 @@
 
 import gc
 import os
+import resource
 import select
 import signal
 import socket
@@ -312,3 +313,14 @@ def test_the_process_of_a_grader_that_has_gone_is_ended():
         poll = select.poll()
         poll.register(process._pidfd, select.POLLIN)
         assert poll.poll(10_000)
+
+
+def test_a_sandbox_starts_where_no_file_may_grow():
+    """A limit that a grader may run under; its own commits then name it, the sandbox needs no file."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, before[1]))
+    try:
+        with Sandbox(policy=SMALL) as box, box.open() as session:
+            assert session.run_cell("6 * 7").outputs[0]["data"]["text/plain"] == "42"
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
