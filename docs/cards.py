@@ -59,7 +59,7 @@ def as_page(verdict: Verdict) -> str:
     figure = card.figure(verdict)
     drawn = page.fragment(figure) if figure is not None else ""
     style = "width: 860px; font-family: system-ui, sans-serif"
-    return f"<head>{page.head()}</head><div id='card' style='{style}'>{card.html(verdict)}{drawn}</div>"
+    return f"<!doctype html><head>{page.head()}</head><div id='card' style='{style}'>{card.html(verdict)}{drawn}</div>"
 
 
 def verdicts() -> Iterator[tuple[str, Verdict]]:
