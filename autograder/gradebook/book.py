@@ -135,7 +135,12 @@ class Gradebook:
             notebooks = self._notebooks(connection, of, list(submissions.values()))
             self._cells(connection, of, notebooks)
             self._scores(connection, of, records, submissions, notebooks)
-            return {record.student: _standing(connection, of, record, submissions, notebooks, penalty) for record in records}
+            taken: list[dict[str, Any]] = []
+            ids = submissions, notebooks
+            found = {record.student: _standing(connection, of, record, *ids, penalty, taken) for record in records}
+            if taken:
+                connection.execute(_PENALTY, taken)
+            return found
 
     def read_marks(self, of: AssignmentRow) -> dict[str, dict[tuple[str, str], tuple[float | None, bool]]]:
         """Score and need of a manual look of every graded cell, by student and (notebook, cell)."""
@@ -312,6 +317,17 @@ def _cell_scores(row: NotebookRow, given: NotebookMarks) -> Iterator[tuple[str, 
         yield cell, {"auto": mark.points, "look": mark.look or mark.points is None, "never": False}
 
 
+_DATES = sa.select(submitted_assignment.c.timestamp, submitted_assignment.c.extension).where(
+    submitted_assignment.c.id == sa.bindparam("submission")
+)
+_TOTAL = sa.select(sa.func.coalesce(sa.func.sum(score_of), 0.0)).where(grade.c.notebook_id == sa.bindparam("nb"))
+_PENALTY = (
+    sa.update(submitted_notebook)
+    .where(submitted_notebook.c.id == sa.bindparam("nb"))
+    .values(late_submission_penalty=sa.bindparam("off"))
+)
+
+
 def _standing(
     connection: Connection,
     of: AssignmentRow,
@@ -319,28 +335,23 @@ def _standing(
     submissions: Mapping[str, str],
     notebooks: Mapping[tuple[str, str], str],
     penalty: Penalty | None,
+    taken_off: list[dict[str, Any]],
 ) -> Standing:
+    """Where a student stands; what is taken off each notebook is added to ``taken_off``."""
     id = submissions[record.student]
-    dates = connection.execute(
-        sa.select(submitted_assignment.c.timestamp, submitted_assignment.c.extension).where(submitted_assignment.c.id == id)
-    ).one()
+    dates = connection.execute(_DATES, {"submission": id}).one()
     late = seconds_late(dates.timestamp, of.duedate, dates.extension)
     total = taken = 0.0
     for name, given in record.notebooks.items():
         place = notebooks[id, of.notebooks[name].id]
-        score = float(
-            connection.scalar(sa.select(sa.func.coalesce(sa.func.sum(score_of), 0.0)).where(grade.c.notebook_id == place))
-            or 0.0
-        )
+        score = float(connection.scalar(_TOTAL, {"nb": place}) or 0.0)
         total += score
         if given.missing or given.broken:
             continue
         off = penalty(record.student, score, late) if penalty is not None and late > 0 else None
         capped = None if off is None else min(max(float(off), 0.0), score)
         taken += capped or 0.0
-        connection.execute(
-            sa.update(submitted_notebook).where(submitted_notebook.c.id == place).values(late_submission_penalty=capped)
-        )
+        taken_off.append({"nb": place, "off": capped})
     return Standing(total, taken, late)
 
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 import ast
 import contextlib
 import dataclasses
+import functools
 import hashlib
 import json
 import re
@@ -321,6 +322,7 @@ def _imported(tree: ast.Module) -> Iterator[str]:
             yield from ((alias.asname or alias.name).partition(".")[0] for alias in node.names)
 
 
+@functools.lru_cache(maxsize=1000)
 def _imports(source: str) -> str:
     """The imports of a solution cell, which the instructor's tests may lean on."""
     nodes = [node for node in _parsed(source).body if isinstance(node, ast.Import | ast.ImportFrom)]

@@ -54,7 +54,10 @@ def main(job: int, level: str, limits: dict[str, Any], scratch: str, programme: 
     except BaseException as error:
         link.sendall(wire.frame(wire.DONE, exchange, wire.encode((False, f"{type(error).__name__}: {error}"))))
         os._exit(70)
-    set_environment(scratch, environment)
+    if scratch != confine.SCRATCH:
+        set_environment(scratch)
+    os.environ.update(environment)
+    as_a_notebook()
     server.seed = seed
     _reseed(seed, 0)
     link.sendall(
@@ -250,14 +253,17 @@ def lay_out(files: tuple[tuple[str, bytes], ...]) -> None:
             file.write(content)
 
 
-def set_environment(scratch: str, more: tuple[tuple[str, str], ...]) -> None:
-    """Nothing of the zygote's environment, what every notebook finds, and what this one is given."""
+def set_environment(scratch: str) -> None:
+    """What every notebook finds, and nothing else; done by the zygote where all have the same."""
     os.environ.clear()
     os.environ.update(ENVIRONMENT)
     os.environ.update(
         HOME=f"{scratch}/home", TMPDIR=f"{scratch}/tmp", IPYTHONDIR=f"{scratch}/home", MPLCONFIGDIR=f"{scratch}/home"
     )
-    os.environ.update(more)
+
+
+def as_a_notebook() -> None:
+    """Modules beside the notebook can be imported, and the command line says nothing."""
     sys.path.insert(0, "")
     sys.argv[:] = ["notebook"]
 

@@ -48,7 +48,9 @@ def _prepare(files: Any, environment: Any, limits: dict[str, Any]) -> None:
         os.mkdir(f"{confine.SCRATCH}/{folder}", 0o700)
     os.chdir(f"{confine.SCRATCH}/work")
     child.lay_out(files)
-    child.set_environment(confine.SCRATCH, environment)
+    child.set_environment(confine.SCRATCH)
+    os.environ.update(environment)
+    child.as_a_notebook()
     packages = ":".join(place for place in sys.path if place.startswith(("/packages", "/guest")))
     os.environ.update(
         PATH=PATH, PYTHONHOME="/python", PYTHONPATH=packages, LD_LIBRARY_PATH="/python/lib", MALLOC_ARENA_MAX="2",

@@ -59,6 +59,7 @@ class Zygote:
         self.tid_address = system.thread_id_address()
         self.shell = Shell.for_notebooks()
         _warm_up(self.shell, preload)
+        child.set_environment(confine.SCRATCH)
         if os.path.isdir("/proc/self/task") and len(os.listdir("/proc/self/task")) > 1:
             raise RuntimeError("a thread runs in the zygote; clone would leave its locks held for ever")
         gc.collect()
