@@ -46,7 +46,7 @@ from autograder.gradebook import AssignmentRow, Gradebook, Penalty
 from autograder.notebook import apart, secret, submission
 from autograder.notebook.apart import Script
 from autograder.notebook.master import Master
-from autograder.notebook.rebuild import MISSING
+from autograder.notebook.rebuild import notification
 from autograder.notebook.session import Opener, Packages
 from autograder.sandbox import kernel
 
@@ -195,7 +195,7 @@ class Course:
     @property
     def missing_notification(self) -> str:
         """What a cell that was put back begins with."""
-        return str(self.get("OverwriteCells", "missing_cell_notification", MISSING))
+        return str(self.get("OverwriteCells", "missing_cell_notification", notification()))
 
     @property
     def create_students(self) -> bool:

@@ -34,6 +34,7 @@ from autograder.gradebook.tables import (
     submitted_assignment,
     submitted_notebook,
 )
+from autograder.messages import say
 from autograder.notebook.marks import Mark
 
 CHUNK = 400  # keys in one IN (...), well under SQLite's limit of variables
@@ -279,7 +280,7 @@ class Gradebook:
                 place = notebooks[submissions[record.student], row.id]
                 scores += [{"nb": place, "cell": cell, **values} for cell, values in _cell_scores(row, given)]
                 if not given.missing:
-                    texts = {cell: "No response." if cell in given.unanswered else None for cell in row.commented}
+                    texts = {cell: say("graded.no_response") if cell in given.unanswered else None for cell in row.commented}
                     comments += [{"nb": place, "cell": row.commented[cell], "text": text} for cell, text in texts.items()]
         if scores:
             connection.execute(_SCORE, scores)

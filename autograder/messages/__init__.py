@@ -1,10 +1,11 @@
-"""All that a learner reads of the judge, the cards and the feedback: one catalogue, so that a translation is one file.
+"""All that a learner reads of the judge, the cards, grading and the feedback: one catalogue, so that a translation is one file.
 
 :mod:`autograder.translation` reads that file and says how to begin one. Statements, titles and hints of known mistakes are not
 here: they stand in the assignment, beside what they speak of.
 
 judged   what the judge says of an answer
 shown    what stands around it: headings, the table, cards where nothing can be judged, the figure, the feedback page
+graded   what grading writes into a notebook: no mark and why, what was stopped, what was cut
 """
 
 from __future__ import annotations
@@ -20,10 +21,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from autograder.errors import CourseError
+from autograder.messages.graded import GRADED
 from autograder.messages.judged import JUDGED
 from autograder.messages.shown import SHOWN
 
-ENGLISH: Mapping[str, str] = MappingProxyType({**JUDGED, **SHOWN})
+ENGLISH: Mapping[str, str] = MappingProxyType({**JUDGED, **SHOWN, **GRADED})
 TEXT: dict[str, str] = dict(ENGLISH)  # what is said
 
 

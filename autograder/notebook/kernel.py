@@ -10,15 +10,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Protocol
 
+from autograder.messages import say
 from autograder.notebook.marks import CellRun
 from autograder.notebook.rebuild import Rebuilt
-
-FORGEABLE = (
-    "This test ran in the learner's own kernel, where its outcome can be forged: no mark; please look. "
-    "Exercise cells and tests that run apart are marked with this engine too."
-)
-LOST = "Not run to its end in the kernel: {}"
-SILENT = "Not run in the kernel: an earlier cell ended it."
+from autograder.notebook.told import told
 
 
 class Shown(Protocol):
@@ -46,7 +41,10 @@ def take(rebuilt: Rebuilt, runs: list[CellRun | None], shown: Shown, apart: froz
         if number in shown.cells:
             cell["outputs"] = shown.cells[number].outputs
         else:
-            cell["outputs"] = [_said(LOST.format(shown.ended.message) if shown.ended is not None else SILENT)]
+            lost = shown.ended is not None
+            cell["outputs"] = [
+                _said(say("graded.kernel_lost", why=told(shown.ended.message)) if lost else say("graded.kernel_silent"))
+            ]
     without_marks(rebuilt, runs, apart)
 
 
@@ -56,7 +54,7 @@ def without_marks(rebuilt: Rebuilt, runs: list[CellRun | None], apart: frozenset
         run = runs[number]
         test = mine is not None and mine.grade and not mine.solution and mine.name not in apart
         if test and run is not None and run.status != "judged":
-            runs[number] = CellRun("not run", note=FORGEABLE)
+            runs[number] = CellRun("not run", note=say("graded.forgeable"))
 
 
 def _said(text: str) -> dict[str, Any]:

@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-TRUNCATED = "... Output truncated ..."
+from autograder.messages import say
+
 MOST_SHOWN = 32_000_000
-TOO_MUCH = "... left out: this notebook shows more than can be kept ..."
 
 
 def ignore_stderr(cells: Iterable[dict[str, Any]], pattern: str) -> None:
@@ -60,7 +60,7 @@ class Shown:
             if graded and decides and self.left < 0:
                 break
         if len(kept) < len(outputs):
-            kept.append({"output_type": "display_data", "metadata": {}, "data": {"text/plain": TOO_MUCH}})
+            kept.append({"output_type": "display_data", "metadata": {}, "data": {"text/plain": say("graded.cut.notebook")}})
         return kept
 
 
@@ -87,7 +87,7 @@ def _limited(outputs: list[dict[str, Any]], most: int) -> list[dict[str, Any]]:
                 continue
             lines = output["text"].split("\n")
             if len(lines) + length > most:
-                lines = [*lines[: max(most - length - 1, 0)], TRUNCATED]
+                lines = [*lines[: max(most - length - 1, 0)], say("graded.cut.lines")]
             length += len(lines)
             output["text"] = "\n".join(lines)
         kept.append(output)
@@ -96,4 +96,4 @@ def _limited(outputs: list[dict[str, Any]], most: int) -> list[dict[str, Any]]:
 
 def _cut(traceback: list[str], most: int) -> list[str]:
     start = most // 2
-    return [*traceback[:start], "... Traceback truncated ...", *traceback[-(most - start - 1) :]]
+    return [*traceback[:start], say("graded.cut.traceback"), *traceback[-(most - start - 1) :]]

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from autograder.messages import say
 from autograder.notebook.master import MasterCell, checksum
 from autograder.result import Verdict
 
@@ -62,16 +63,16 @@ def mark(cell: Mapping[str, Any], master: MasterCell, run: CellRun | None) -> Ma
     if master.exercise is not None and (run is None or run.status not in RAN):
         return judged(run, points)
     if run is None or run.status not in RAN:
-        return Mark(None, look=True, note=(run.note if run else "") or "This cell was not executed.")
+        return Mark(None, look=True, note=(run.note if run else "") or say("graded.not_executed"))
     return scored(cell["outputs"], points)
 
 
 def judged(run: CellRun | None, points: float) -> Mark:
     """The mark of an exercise cell: its verdict's share of the points."""
     if run is None or run.verdict is None:
-        return Mark(None, look=True, note=(run.note if run else "") or "This exercise was not judged.")
+        return Mark(None, look=True, note=(run.note if run else "") or say("graded.not_judged"))
     if run.verdict.outcome == "could not judge":
-        return Mark(None, look=True, note=run.note or "This exercise could not be judged.")
+        return Mark(None, look=True, note=run.note or say("graded.could_not_judge"))
     return Mark(run.verdict.points(points))
 
 
@@ -94,17 +95,16 @@ def partial(shown: str | None, points: float) -> Mark:
     points, with a warning.
     """
     if shown is None:
-        return Mark(None, look=True, note="The test returned something without a text; please look at it.")
+        return Mark(None, look=True, note=say("graded.no_text"))
     inner = _NUMPY.fullmatch(shown.strip())
     try:
         value = float((inner[1] or inner[2]) if inner else shown)
     except ValueError:
-        note = f"The test returned {_short(shown)}, which is no number: full points, as in nbgrader."
-        return Mark(points, note=note)
+        return Mark(points, note=say("graded.no_number", shown=_short(shown)))
     if 0 <= value <= points + ROUNDING * max(points, 1.0):
         return Mark(min(abs(value), points))
-    what = "not a number" if math.isnan(value) else f"{value:g}, outside 0 to {points:g}"
-    return Mark(0.0, look=True, note=f"The test returned {what}: 0 points for now; please look at it.")
+    outside = {"value": f"{value:g}", "points": f"{points:g}"}
+    return Mark(0.0, look=True, note=say("graded.nan") if math.isnan(value) else say("graded.outside", **outside))
 
 
 def _short(shown: str) -> str:

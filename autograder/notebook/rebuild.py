@@ -13,13 +13,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from autograder import messages
 from autograder.errors import SubmissionError
+from autograder.messages import say
 from autograder.notebook import safe
 from autograder.notebook.master import Known, Master, MasterCell, checksum
 
 MAX_CELLS = 5_000
 MAX_SOURCE = 1_000_000
-MISSING = "This cell (id:{cell_id}) was missing from the submission. It was added back by nbgrader.\n\n"
 _ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
 _KERNEL = re.compile(r"[\w .()+\[\]:-]{1,100}")
 
@@ -54,7 +55,7 @@ def rebuild(
     master: Master,
     *,
     add_missing: bool = False,
-    missing: str = MISSING,
+    missing: str | None = None,
     keep_outputs: bool = False,
 ) -> Rebuilt:
     """Rebuild a submitted notebook (parsed JSON, nbformat 4, otherwise anything) around the instructor's copy.
@@ -64,7 +65,7 @@ def rebuild(
     add_missing : bool
         nbgrader's ``OverwriteCells.add_missing_cells``: put deleted graded and task cells back.
     missing : str
-        What such a cell begins with.
+        What such a cell begins with, its name as ``{cell_id}``; None for nbgrader's sentence.
     keep_outputs : bool
         Keep (clean) outputs of cells that are not graded, as ``--no-execute`` asks.
     """
@@ -85,15 +86,18 @@ def rebuild(
         known.append(_known(draft, mine, master))
     built = Rebuilt(_notebook(cells, submitted, master), masters, known, notes)
     if add_missing:
-        _add_missing(built, master, missing)
+        _add_missing(built, master, notification() if missing is None else missing)
     present = {cell.name for cell in built.masters if cell is not None}
     for cell in master.cells.values():
         if cell.grade and cell.name not in present:
-            built.notes.append(
-                Note(cell.name, "The cell is missing from the submission: no mark, please look at it.", look=True)
-            )
+            built.notes.append(Note(cell.name, say("graded.missing"), look=True))
     _give_ids(built.cells)
     return built
+
+
+def notification() -> str:
+    """What a cell that was put back begins with, its name still in braces."""
+    return messages.TEXT["graded.put_back"] + "\n\n"
 
 
 @dataclass
@@ -129,7 +133,7 @@ def _claims(drafts: list[_Draft], master: Master, notes: list[Note]) -> dict[int
     for number, draft in enumerate(drafts):
         if draft.name is not None and draft.name in master.cells:
             if draft.name in last and not any(note.cell == draft.name for note in notes):
-                notes.append(Note(draft.name, "The cell is there more than once; the last one counts.", look=True))
+                notes.append(Note(draft.name, say("graded.twice"), look=True))
             last[draft.name] = number
     return {number: master.cells[name] for name, number in last.items()}
 

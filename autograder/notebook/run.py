@@ -27,26 +27,20 @@ from autograder.diagnosis.earlier import Earlier
 from autograder.errors import CallFailed, SandboxError
 from autograder.exercise import Exercise
 from autograder.judge import judge
+from autograder.messages import say
 from autograder.notebook import kernel, limit, safe
 from autograder.notebook.apart import Apart, Tests
 from autograder.notebook.marks import CellRun
 from autograder.notebook.master import MasterCell
 from autograder.notebook.rebuild import Rebuilt
+from autograder.notebook.told import told
 from autograder.result import Verdict
 
 log = logging.getLogger(__name__)
 MAX_RESTARTS = 12
 MAX_SECONDS = 300.0
-ENDED = {
-    "timeout": ("TimeLimit", "this cell was stopped: it took longer than the time limit"),
-    "memory": ("MemoryLimit", "this cell was stopped: it took more memory than the limit"),
-    "died": ("ProcessEnded", "this cell ended the Python process"),
-    "refused": ("Refused", "this cell was not run: the sandbox refused it"),
-}
+ENDED = {"timeout": "TimeLimit", "memory": "MemoryLimit", "died": "ProcessEnded", "refused": "Refused"}  # shown as its error
 SKIP_TAG = "skip-execution"
-HURRIED = "Stopped by the clock before its computing time was used up: no mark, since a busy machine can do that; please look."
-AFTER = "An earlier cell was stopped by the clock before its computing time was used up: no mark; please look."
-FAULTY = "An earlier cell could not be run, which is not this notebook's fault: no mark; it is graded again."
 
 
 class Result(Protocol):
@@ -205,13 +199,13 @@ class _Before:
 
 def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable[[str], bytes], before: _Before) -> CellRun:
     if exercise is None:
-        note = f"No exercise is called {name}, so this cell could not be judged."
+        note = say("graded.unknown", name=name)
         return CellRun("judged", _unjudged(name, note), note)
     try:
         session = runner.ready()
     except SandboxError as error:
         note = runner.fault(f"{name}: {error}")
-        return CellRun("judged", _unjudged(name, "The sandbox was not available, so this could not be judged.", exercise), note)
+        return CellRun("judged", _unjudged(name, say("graded.no_sandbox_judge"), exercise), note)
     if session is None:
         return CellRun("judged", _unjudged(name, runner.spent, exercise), runner.spent)
 
@@ -222,7 +216,8 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
             return session.call(id, args)
         except CallFailed as failure:
             if runner.by_clock(failure.kind):
-                raise SandboxError(HURRIED) from None
+                raise SandboxError(say("graded.hurried")) from None
+            failure.args = (told(failure.message),)
             raise
 
     def call(*args: Any) -> Any:
@@ -233,12 +228,12 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
         verdict = judge(exercise, call, seed=seed(name), earlier=lambda: before.used_by(name, called))
     except Exception as error:  # the grader's own fault is never the learner's zero
         log.exception("the judge failed on %s", name)
-        note = runner.fault(f"{name}: the judge failed ({type(error).__name__}: {error})")
-        return CellRun("judged", _unjudged(name, "The judge itself failed, so this could not be judged.", exercise), note)
+        note = runner.fault(say("graded.fault_judge", name=name, exception=type(error).__name__, message=error))
+        return CellRun("judged", _unjudged(name, say("graded.judge"), exercise), note)
     if verdict.outcome == "could not judge" and runner.late:
         return CellRun("judged", _unjudged(name, runner.spent, exercise), runner.spent)
     if (runner.hurried or after) and verdict.outcome != "passed":
-        note = after or HURRIED
+        note = after or say("graded.hurried")
         return CellRun("judged", _unjudged(name, note, exercise), note)
     if verdict.outcome == "could not judge":
         return CellRun("judged", verdict, runner.fault(f"{name}: {verdict.message}"))
@@ -268,7 +263,7 @@ class _Runner:
         """A live session that has run all good cells; None when no restart or no time is left."""
         while self.session is None or not self.session.alive or (self.tests is not None and not self.tests.alive):
             if self.restarts >= MAX_RESTARTS:
-                self.spent = f"Not run: this notebook ended its process more than {MAX_RESTARTS} times before."
+                self.spent = say("graded.restarts", count=MAX_RESTARTS)
                 return None
             if self.late:
                 return None
@@ -293,7 +288,7 @@ class _Runner:
         """Whether the time for the whole notebook is used up; ``spent`` says so then."""
         if time.monotonic() <= self.deadline:
             return False
-        self.spent = "Not run to its end: the time for this notebook was used up."
+        self.spent = say("graded.late")
         return True
 
     def _replay(self) -> None:
@@ -312,26 +307,26 @@ class _Runner:
                 return CellRun("not run", note=self.spent), [_display({"text/plain": self.spent})]
             result = self.tests.run(test, source) if apart and self.tests is not None else session.run_cell(source)
         except SandboxError as error:
-            note = self.fault(f"a cell could not be run: {error}")
-            return CellRun("not run", note=note), [_display({"text/plain": "The sandbox was not available: not run."})]
+            note = self.fault(say("graded.fault_cell", error=error))
+            return CellRun("not run", note=note), [_display({"text/plain": say("graded.no_sandbox")})]
         if result.status in ("ok", "error") and session.alive and not apart:
             self.good.append(source)
         outputs = result.outputs  # cleaned when all cells have run: a later cell may update a display in them
-        status = result.status
+        status, note = result.status, told(result.note)
         if status not in ("ok", "error") or (not session.alive and status == "ok"):
-            outputs.append(_ended(status if status in ENDED else "died", result.note))
+            outputs.append(_ended(status if status in ENDED else "died", note))
         elif status == "error" and not any(output["output_type"] == "error" for output in outputs):
-            outputs.append(_error("Error", result.note or "this cell raised an error"))
+            outputs.append(_error("Error", note or say("graded.error")))
         if self.after and status != "ok":
             return CellRun("not run", note=self.after), outputs
         if self.by_clock(status):
-            return CellRun("not run", note=HURRIED), outputs
-        return CellRun(status, note=result.note), outputs
+            return CellRun("not run", note=say("graded.hurried")), outputs
+        return CellRun(status, note=note), outputs
 
     @property
     def after(self) -> str:
         """Why what fails from here on has no mark; empty as long as it is the learner's own."""
-        return AFTER if self.hurried else FAULTY if self.faults else ""
+        return say("graded.after") if self.hurried else say("graded.faulty") if self.faults else ""
 
     def by_clock(self, status: str) -> bool:
         """Whether what has just ended so was stopped by the clock with CPU time left; ``hurried`` from then on."""
@@ -357,8 +352,7 @@ class _Runner:
 
 
 def _ended(status: str, note: str) -> dict[str, Any]:
-    name, sentence = ENDED[status]
-    return _error(name, note or sentence)
+    return _error(ENDED[status], note or say(f"graded.ended.{status}"))
 
 
 def _error(name: str, value: str) -> dict[str, Any]:

@@ -16,6 +16,9 @@ from typing import Any
 
 import nh3
 
+from autograder.messages import say
+from autograder.notebook.told import told
+
 FIGURE = "application/vnd.plotly.v1+json"
 IMAGES = {"image/png": b"\x89PNG", "image/jpeg": b"\xff\xd8\xff", "image/gif": b"GIF8"}
 TEXTS = ("text/plain", "text/latex")
@@ -134,7 +137,7 @@ def text(value: object, limit: int = MAX_TEXT) -> str:
     if not isinstance(joined, str):
         return ""
     valid = joined.encode("utf-16", "surrogatepass").decode("utf-16", "replace") if not joined.isascii() else joined
-    return valid if len(valid) <= limit else valid[:limit] + "\n... cut here: the output was too long ..."
+    return valid if len(valid) <= limit else f"{valid[:limit]}\n{say('graded.cut.text')}"
 
 
 class Figure(dict[str, Any]):
@@ -184,7 +187,7 @@ def bundle(data: object) -> dict[str, Any]:
     clean: dict[str, Any] = {}
     for mime, value in data.items():
         if mime in TEXTS:
-            clean[mime] = text(value)
+            clean[mime] = text(told(value))
         elif mime == "text/html":
             clean[mime] = clean_html(text(value))
         elif mime == "text/markdown":

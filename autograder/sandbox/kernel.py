@@ -171,7 +171,7 @@ class _Watched:
             except BlockingIOError:
                 continue
             except OSError:
-                raise _Over(Ended("died", messages.died("starting", 0, 0))) from None
+                raise _Over(Ended("died", messages.died(messages.START, 0, 0))) from None
 
     def answers(self, run: KernelRun, cells: int) -> None:
         """Take what is sent for each cell, at most twice, and the files at the end."""

@@ -10,6 +10,7 @@ import json
 import re
 from typing import Any
 
+from autograder.sandbox import messages
 from autograder.sandbox.wire import WireError
 
 IMAGES = ("image/png", "image/jpeg", "image/gif")
@@ -116,8 +117,7 @@ def _bundle(pairs: tuple[Any, ...]) -> dict[str, Any]:
         else:
             data[mime] = content
     if not data:
-        shown = ", ".join(text(mime, 100) for mime in dropped[:3]) or "nothing"
-        data["text/plain"] = f"[this output cannot be shown here: {shown}]"
+        data["text/plain"] = messages.not_shown(", ".join(text(mime, 100) for mime in dropped[:3]))
     return data
 
 

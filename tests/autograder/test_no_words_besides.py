@@ -21,6 +21,9 @@ SPEAKING = [
         for room in ("comparison", "diagnosis", "card", "checking", "feedback")
         for path in sorted((HOUSE / room).glob("*.py"))
     ),
+    # Of these rooms, what writes into a learner's notebook; the other files read submissions and speak to instructors.
+    *(HOUSE / "notebook" / f"{name}.py" for name in ("run", "marks", "rebuild", "kernel", "limit", "safe", "score", "told")),
+    HOUSE / "gradebook" / "book.py",
 ]
 NAMES = {*get_args(Tier), *get_args(Outcome)}  # values of a type, never shown themselves
 # Words that no learner reads, or that are no words: the file, how the literal begins, and why it may stand there.
@@ -44,17 +47,31 @@ ALLOWED = {
     ("target.py", ", judged as a surface,"): "for the author of an exercise",
     ("target.py", ", data set "): "for the author of an exercise",
     ("target.py", "Target"): "the name of a type",
+    ("run.py", "the card of"): "for the log",
+    ("run.py", "the judge failed on"): "for the log",
+    ("run.py", "the notebook could not be run in a kernel"): "for the instructor's report",
+    ("run.py", "files that the notebook wrote"): "for the instructor's report",
+    ("run.py", "Refused"): "the name of an error",
+    ("run.py", "Error"): "the name of an error",
+    ("rebuild.py", "The notebook has more than"): "for the instructor's report",
+    ("rebuild.py", "of its cells could not be read"): "for the instructor's report",
+    ("rebuild.py", "The cell was missing from the submission and was put back."): "for the instructor's report",
+    ("book.py", "there are:"): "for the instructor",
+    ("book.py", "there is none yet"): "for the instructor",
     ("personal.py", "directrix, numbers of one's own"): "hashed",
 }
+
+OF_THE_PAGES = {"DIFFERENCES"}  # a constant whose words stand in docs/ only
 
 
 def literals(tree):
     """Strings of a program but for docstrings, annotations and the errors that instructors and authors read."""
     unread = set()
     for node in ast.walk(tree):
-        body = getattr(node, "body", None)
-        if isinstance(body, list) and body and isinstance(body[0], ast.Expr) and isinstance(body[0].value, ast.Constant):
-            unread.add(body[0].value)
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            unread.add(node.value)
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name) and node.targets[0].id in OF_THE_PAGES:
+            unread |= set(ast.walk(node))
         for field in ("annotation", "returns"):
             if (named := getattr(node, field, None)) is not None:
                 unread |= set(ast.walk(named))

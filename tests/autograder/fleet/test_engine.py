@@ -9,9 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from autograder import fleet
+from autograder import fleet, messages
 from autograder.errors import CourseError, IsolationError
-from autograder.notebook.kernel import FORGEABLE
 from tests.autograder.conftest import Classroom
 
 RIGHT = {
@@ -79,7 +78,7 @@ def test_tests_in_the_learners_kernel_have_no_mark(graded):
         ))  # fmt: skip
         assert (marks["test_square"], marks["test_half"]) == (None, None)
     notes = {cell.name: cell.note for student in report.students for cell in student.cells if cell.name == "test_square"}
-    assert notes["test_square"] == FORGEABLE
+    assert notes["test_square"] == messages.ENGLISH["graded.forgeable"]
     assert report.failures == ()
 
 
