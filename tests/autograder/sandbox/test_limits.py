@@ -31,6 +31,7 @@ def test_a_loop_is_interrupted_at_its_line_and_the_notebook_goes_on(session):
     result = session.run_cell("kept = 1\nwhile True:\n    kept += 1")
     assert result.status == "timeout"
     assert result.note == "this cell was stopped: it may compute for 1 s and had not finished. Is there a loop that never ends?"
+    assert (result.note.key, result.note.facts["what"].key) == ("cpu_time", "cell")  # for another language
     assert result.outputs[-1]["ename"] == "TimeLimitExceeded"
     assert "kept += 1" in re.sub(r"\x1b\[[0-9;]*m", "", "".join(result.outputs[-1]["traceback"]))
     assert session.out_of_time.limit == "cpu"
