@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike
 
 from directrix import checks
 from directrix.plot import palette, traces
-from directrix.plot.sampling import LETTERS, Array, axes_of, bounds, deviation, grid_normals, points_on, size_of
-from directrix.plot.scene import CORNER, VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
+from directrix.plot.lettering import letters as letters
+from directrix.plot.sampling import LETTERS, Array, axes_of, deviation, grid_normals, points_on, size_of
+from directrix.plot.scene import VIEWS, Box, camera, coloured, encode, layout, legend, scene, short, word
 from directrix.plot.wording import WORDS, Words
 
-TOWARDS = np.array(CORNER) / np.linalg.norm(CORNER)  # the reader, before the figure is turned
 HEIGHT = 430
 ROUNDING = 1e-9  # relative deviations up to this are none
 LINES = 8  # parameter lines each way, apart from the edges: every eighth of the range
@@ -232,65 +232,6 @@ def _lines(points: Array, u: Array, w: Array, size: float, where: str, called: t
     return [trace for trace in drawn if np.isfinite(trace["x"]).any()] + letters(
         points, size, where, (called[0], called[1]), normals
     )
-
-
-def letters(
-    points: Array, size: float, where: str, labels: tuple[str, str] = ("u", "w"), normals: Array | None = None
-) -> list[dict[str, Any]]:
-    """A dot where u = w = 0, and each letter on its edge from there, where it is seen best.
-
-    Where an edge is no more than a point, as at a pole, its letter stands on the line through the middle.
-    """
-    start = points[:1, 0]
-    placed = []
-    if np.isfinite(points).any():
-        places = _seen(points, size)
-        ends = np.stack([points[place] for place in places])
-        # Moved off the surface, to the side that is seen at first, and over the edge, or it would hide them; beside a closed
-        # edge to the inner side, since the outer one is the end of the box.
-        normals = grid_normals(points) if normals is None else normals
-        off = np.stack([normals[place] for place in places])
-        off = off * np.where(off @ TOWARDS < 0, -1.0, 1.0)[:, None]
-        (i, on_u), (on_w, j) = places
-        over = ends - np.stack([points[i, on_u + 1], points[on_w + 1, j]])
-        over *= [[-1.0 if _closed(line) else 1.0] for line in (points[:, on_u], points[on_w])]
-        long = np.linalg.norm(over, axis=1, keepdims=True)
-        ends = ends + 0.03 * size * (off + over / np.where(long > 0, long, 1.0))
-        if np.isfinite(ends).all():
-            placed.append(traces.words(ends, labels, (palette.U, palette.W), scene=where))
-    if np.isfinite(start).all():
-        name = f"{labels[0]} = {labels[1]} = 0"
-        placed.append(traces.marks(start, colour=palette.INK, size=4, symbol="circle", name=name, scene=where))
-    return placed
-
-
-def _closed(line: Array) -> bool:
-    return bool(np.allclose(line[0], line[-1]))
-
-
-def _seen(points: Array, size: float) -> tuple[tuple[int, int], tuple[int, int]]:
-    """An eighth to a half along each edge from u = w = 0, or anywhere on a closed one: near to the reader, and apart.
-
-    The place of u first, on the line w = 0, then that of w, on u = 0; on the middle line where that edge is a point.
-    """
-    low, high = bounds(points)
-
-    def merit(pair: tuple[tuple[int, int], tuple[int, int]]) -> float:
-        a, b = ((points[place] - (low + high) / 2) / size for place in pair)
-        apart = (a - b) - ((a - b) @ TOWARDS) * TOWARDS
-        worth = a @ TOWARDS + b @ TOWARDS + 4 * min(float(np.linalg.norm(apart)), 0.2)
-        return float(worth) if np.isfinite(worth) else -np.inf
-
-    n, m = points.shape[:2]
-    on_u, on_w = (
-        middle if float(np.ptp(edge, axis=0).max()) < 0.02 * size else 0
-        for edge, middle in ((points[:, 0], m // 2), (points[0], n // 2))
-    )
-    along_u, along_w = (
-        [(len(line) * part) // 8 for part in ((2, 1, 3, 4, 5, 6, 7) if _closed(line) else (2, 1, 3, 4))]
-        for line in (points[:, on_u], points[on_w])
-    )
-    return max((((i, on_u), (on_w, j)) for i in along_u for j in along_w), key=merit)
 
 
 def _marked(

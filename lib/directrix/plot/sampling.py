@@ -87,11 +87,19 @@ def grid_normals(points: Array) -> Array:
     """Unit normals of a sampled surface (n, m, 3) by differences; (0, 0, 0) where they vanish, as at a pole."""
     along_u = np.gradient(points, axis=0) if len(points) > 1 else np.zeros_like(points)
     along_w = np.gradient(points, axis=1) if points.shape[1] > 1 else np.zeros_like(points)
-    normals = np.cross(along_u, along_w)
-    length = np.linalg.norm(normals, axis=-1, keepdims=True)
-    steps = np.linalg.norm(along_u, axis=-1, keepdims=True) * np.linalg.norm(along_w, axis=-1, keepdims=True)
+    # By coordinates: three whole arrays take a third of the time of as many products of three numbers as there are points.
+    a, b = np.moveaxis(along_u, -1, 0), np.moveaxis(along_w, -1, 0)
+    normals = np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    length = _lengths(normals)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.where(length > 1e-9 * np.maximum(steps, 1e-300), normals / length, 0.0)
+        unit = np.where(length > 1e-9 * np.maximum(_lengths(a) * _lengths(b), 1e-300), normals / length, 0.0)
+    return np.ascontiguousarray(np.moveaxis(unit, 0, -1))
+
+
+def _lengths(rows: Array) -> Array:
+    """Lengths of vectors whose coordinates are the rows."""
+    length: Array = np.sqrt(rows[0] * rows[0] + rows[1] * rows[1] + rows[2] * rows[2])
+    return length
 
 
 def deviation(expected: Array, yours: Array) -> Array:
@@ -115,7 +123,8 @@ def bounds(*samplings: Array) -> tuple[Array, Array]:
     GeometryError
         If no point is finite.
     """
-    rows = np.concatenate([np.reshape(points, (-1, 3)).T for points in samplings], axis=1)  # one coordinate a row: read fastest
+    parts = [np.reshape(points, (-1, 3)).T for points in samplings]
+    rows = np.ascontiguousarray(parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1))  # a coordinate a row: quick
     if not np.isfinite(rows).all():
         rows = rows[:, np.isfinite(rows).all(axis=0)]
     if not rows.shape[1]:

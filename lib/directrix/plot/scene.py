@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import functools
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +23,8 @@ VIEWS: dict[str, dict[str, dict[str, float]]] = {
     "from +z": {"eye": {"x": 0, "y": 0, "z": 1.9}, "up": {"x": 0, "y": 1, "z": 0}},
 }
 CENTRE = {"x": 0, "y": 0, "z": -0.1}
+MIDDLE = np.array(list(CENTRE.values()))
+ENDS = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 OPENING = 0.9 * float(np.tan(np.pi / 8))  # room for the numbers at the axes
 
 
@@ -58,16 +61,11 @@ class Box:
 
     def fitting(self, corner: tuple[float, float, float]) -> float:
         """How much further away than usual the camera must stand for a tall box: up to its ends inside the picture."""
-        eye = np.array(corner)
-        half = np.array(list(self.aspect.values())) / 2
-        ends = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * half
-        ahead = -eye / np.linalg.norm(eye)
-        right = np.cross(ahead, (0, 0, 1)) / np.linalg.norm(np.cross(ahead, (0, 0, 1)))
-        up = np.cross(right, ahead)
-        seen = ends - np.array(list(CENTRE.values()))
+        ahead, up, away = _looking(corner)
+        seen = ENDS * (np.array(list(self.aspect.values())) / 2) - MIDDLE
         # Each end is inside if |up| <= OPENING (distance + depth): plotly's camera looks through 45 degrees.
         needed = np.abs(seen @ up) / OPENING - seen @ ahead
-        return max(1.0, float(needed.max() / np.linalg.norm(eye)))
+        return max(1.0, float(needed.max() / away))
 
     def corner(self, place: Array | None) -> tuple[float, float, float]:
         """The camera's corner from which a place is likely seen: the usual one unless the place lies on the far side."""
@@ -79,6 +77,16 @@ class Box:
         seen = [away[0] * a + away[1] * b for a, b in towards]
         best = towards[int(np.argmax(seen))] if seen[0] < 0.1 else (x, y)
         return (*best, z)
+
+
+@functools.lru_cache(maxsize=16)
+def _looking(corner: tuple[float, float, float]) -> tuple[Array, Array, float]:
+    """From a corner: where ahead is, where up is, and how far away the middle."""
+    eye = np.array(corner)
+    away = np.linalg.norm(eye)
+    ahead = -eye / away
+    right = np.cross(ahead, (0, 0, 1)) / np.linalg.norm(np.cross(ahead, (0, 0, 1)))
+    return ahead, np.cross(right, ahead), float(away)
 
 
 def scene(
