@@ -43,6 +43,7 @@ SPECIAL = re.compile(r"[ \t\f]*[!?%,;/]|.*=\s*[!%]|.*\?[\s;]*(?:\#.*)?$", re.DOT
 # What Python warns of while it parses: a backslash (in a text that is not raw), and a number with a word close behind it.
 WARNED = re.compile(r"\\|\d\.?\w*(?:and|else|for|if|in|is|not|or)\b")
 Output = list[Any]
+Sizes = tuple[tuple[str, int, int], ...]
 
 
 class Recorder:
@@ -80,10 +81,13 @@ class Recorder:
 
     def display(self, kind: str, data: dict[str, Any], metadata: dict[str, Any] | None, display_id: Any = None) -> None:
         """A rich display, or a cell's result (``kind`` execute_result)."""
-        bundle = _bundle(data)
+        self.show(kind, _bundle(data), _sizes(metadata), "" if display_id is None else str(display_id)[:200])
+
+    def show(self, kind: str, bundle: list[tuple[str, str]], sizes: Sizes = (), display_id: str = "") -> None:
+        """The same, of texts by mime type."""
         if self.silent or self.full or not bundle or not self._fits(_length(bundle)):
             return
-        output: Output = [kind, bundle, _sizes(metadata), "" if display_id is None else str(display_id)[:200]]
+        output: Output = [kind, bundle, sizes, display_id]
         if self.add(output) and output[3]:
             self.by_id.setdefault(output[3], []).append(output)
 
@@ -471,7 +475,7 @@ def _finite(value: Any) -> Any:
     return value
 
 
-def _sizes(metadata: Any) -> tuple[tuple[str, int, int], ...]:
+def _sizes(metadata: Any) -> Sizes:
     """Width and height of images, the only metadata that is kept."""
     found = []
     for mime, about in metadata.items() if isinstance(metadata, dict) else ():

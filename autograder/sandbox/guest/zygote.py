@@ -16,7 +16,6 @@ import shutil
 import signal
 import socket
 import sys
-import types
 import warnings
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -24,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from autograder.sandbox import system
-from autograder.sandbox.guest import child, confine, rehearsal, seccomp, tracebacks
+from autograder.sandbox.guest import child, confine, figures, rehearsal, seccomp, tracebacks
 from autograder.sandbox.guest.peer import NoAnswer
 from autograder.sandbox.guest.shell import Shell
 
@@ -145,34 +144,16 @@ def _warm_up(shell: Shell, preload: list[str]) -> None:
             with contextlib.suppress(Exception):
                 importlib.import_module(name)
         if "plotly" in sys.modules:
-            _take_arrays_as_they_are()
+            figures.take_arrays_as_they_are()
+            figures.copy_quickly()
         for figure in _figures(sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")):
             with contextlib.suppress(Exception):
                 shell.rehearse_showing(figure())
+        if "plotly" in sys.modules:
+            figures.show_at_once(shell)  # from here on; what plotly does itself has been rehearsed
         tracebacks.prepare()
         with contextlib.suppress(Exception, NoAnswer):
             rehearsal.rehearse(shell)
-
-
-def _take_arrays_as_they_are() -> None:
-    """plotly asks narwhals of every array whether it is a table of pandas, polars or the like, which takes longer than
-    to copy it. What is exactly an array of numpy is none, and narwhals would hand it back as it came.
-    """
-    try:  # by itself plotly loads it with the first figure only
-        validators: Any = importlib.import_module("_plotly_utils.basevalidators")
-    except ImportError:
-        return
-    narwhals = getattr(validators, "nw", None)
-    ask = getattr(narwhals, "from_native", None)
-    if narwhals is None or ask is None:  # another version of plotly
-        return
-
-    def from_native(value: Any, **options: Any) -> Any:
-        return value if type(value) is np.ndarray and options.get("pass_through") else ask(value, **options)
-
-    own = types.ModuleType(narwhals.__name__)
-    own.__dict__.update(narwhals.__dict__, from_native=from_native)
-    validators.nw = own
 
 
 def _figures(go: Any, plot: Any) -> Iterator[Callable[[], Any]]:

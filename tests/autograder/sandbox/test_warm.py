@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
+import pytest
+
 from autograder.sandbox import Policy, Sandbox
+from autograder.sandbox.guest import figures
 
 
 def test_a_traceback_takes_the_grammar_and_the_style_that_are_there(sandbox):
@@ -91,3 +95,73 @@ def test_what_is_rehearsed_leaves_nothing_else(sandbox):
         "[1, 2] {} {}",
         "[1, 2] []",
     ]
+
+
+SHOWN = """
+import numpy as np, plotly.graph_objects as go, plotly.io as pio
+from directrix import plot
+pio.templates.default = {template!r}
+def f(u, w):
+    return np.stack(np.broadcast_arrays(u, w, u * w), axis=-1)
+figures = [
+    plot.view(f, square=True, mark=(0.25, 0.5), title="<b>NaN</b> \\u00e9/"),
+    plot.view(f, against=lambda u, w: f(u, w) + 0.1),
+    plot.view(lambda u, w: f(u, np.where(w > 0.5, np.nan, w))),
+    go.Figure([go.Scatter(x=np.arange(3.0), y=(1, 2.5, None), line={{"width": 1}}), go.Bar(x=np.arange(3), y=["a", "b"])]),
+    go.Figure(go.Surface(z=np.eye(3)[:, ::2], surfacecolor=np.ones((2, 3), "f4").T)).update_layout(height=np.float64(300)),
+    go.Figure(go.Scatter(y=[1, float("nan")], meta={{"layer": {{"a": np.ones(2)}}, "range": np.ones(2)}})),
+    go.Figure(go.Scatter(y=[1]), frames=[go.Frame(data=[go.Scatter(y=np.ones(2))])]).add_annotation(text="a", x=0, y=0),
+]
+figures[-1].layout.xaxis.range = (0, 1)
+"""
+
+
+@pytest.mark.parametrize("template", ["none", "plotly"])
+def test_figures_are_shown_at_once_as_plotly_shows_them(template):
+    """``show`` is plotly's own way: nothing of ours is in it."""
+    with Sandbox(Policy()) as box, box.open() as notebook:
+        assert notebook.run_cell(SHOWN.format(template=template)).status == "ok"
+        for number in range(7):
+            ours, stock = (notebook.run_cell(f"figures[{number}]{how}").outputs for how in ("", ".show()"))
+            assert [output["output_type"] for output in ours] == ["display_data"]
+            assert ours == stock
+        counted = notebook.run_cell(
+            "from autograder.sandbox.guest.figures import MIME\n"
+            "shower = get_ipython().display_formatter.ipython_display_formatter.lookup_by_type(go.Figure).__self__\n"
+            "from autograder.sandbox.guest.shell import _bundle\n"
+            "stock = [dict(_bundle(pio.renderers._build_mime_bundle(one.to_dict(), 'plotly_mimetype'))) for one in figures]\n"
+            "def text(one):\n    try:\n        return shower.text(one)\n    except Exception:\n        return None\n"
+            "print([text(one) == by_plotly[MIME] for one, by_plotly in zip(figures, stock)])"
+        )
+    assert counted.outputs[0]["text"] == "[True, True, True, False, True, False, True]\n", "integers and NaN are left to plotly"
+
+
+def test_what_a_notebook_changes_in_plotly_holds():
+    with Sandbox(Policy()) as box, box.open() as notebook:
+        notebook.run_cell("import plotly.graph_objects as go, plotly.io as pio\nfigure = go.Figure(go.Scatter(y=[1]))")
+        notebook.run_cell("pio.renderers.default = 'json'")
+        assert list(notebook.run_cell("figure").outputs[0]["data"]) == ["application/json"]
+        notebook.run_cell(
+            "pio.renderers.default = 'plotly_mimetype'\npio.renderers['plotly_mimetype'].config = {'scrollZoom': True}"
+        )
+        (shown,) = notebook.run_cell("figure").outputs
+        assert shown["data"]["application/vnd.plotly.v1+json"]["config"]["scrollZoom"] is True
+        captured = "from IPython.utils.capture import capture_output\nwith capture_output() as found:\n    display(figure)"
+        assert notebook.run_cell(f"{captured}\nlen(found.outputs)").outputs[0]["data"]["text/plain"] == "1"
+        notebook.run_cell("go.Figure._ipython_display_ = lambda self: print('mine')")
+        assert notebook.run_cell("figure").outputs[0]["text"] == "mine\n"
+
+
+def test_plotly_copies_plain_data_quickly_and_as_ever():
+    array = np.arange(6.0).reshape(2, 3).T
+    value = {"a": [1, {"b": array, (1, 2): (3, [4])}], "c": None, "d": {"e": "f"}}
+    copy = figures.copied(value)
+    assert repr(copy) == repr(value)
+    assert copy["a"] is not value["a"]
+    assert copy["a"][1]["b"] is not array
+    assert copy["a"][1][1, 2][1] is not value["a"][1][1, 2][1]
+    value["a"].append(value)
+    assert figures.copied(value)["a"][2]["c"] is None
+    with Sandbox(Policy()) as box, box.open() as notebook:
+        result = notebook.run_cell("import plotly.basedatatypes as b, copy\nb.deepcopy is not copy.deepcopy")
+    assert result.outputs[0]["data"]["text/plain"] == "True"
