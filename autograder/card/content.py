@@ -163,4 +163,6 @@ def clean(text: str, longest: int = 400, *, lines: bool = False) -> str:
 
 def printable(text: str) -> str:
     """Text without control characters and lone surrogates; ends of lines and tabs stay."""
+    if text.isprintable():
+        return text
     return "".join(char for char in text if char.isprintable() or char in "\n\t")

@@ -6,6 +6,7 @@ import base64
 import binascii
 import copy
 import functools
+import json
 import math
 import re
 from collections.abc import Mapping
@@ -34,10 +35,26 @@ def figure(verdict: Verdict) -> dict[str, Any] | None:
     """
     if verdict.figure is None:
         return None
-    same = verdict.outcome == "passed" and verdict.tier == "identical" and verdict.figure.yours is not None
-    if same and verdict.figure.yours is verdict.figure.expected:
-        return copy.deepcopy(_drawn_once(_Itself(verdict.figure)))
-    return _drawn(verdict.figure, same=same)
+    if _is_the_reference(verdict):
+        shared = _drawn_once(_Itself(verdict.figure))
+        return copy.deepcopy({part: shared[part] for part in ("data", "layout")})
+    return _drawn(verdict.figure, same=_is_right(verdict.figure, verdict))
+
+
+def _is_right(drawn: Figure, verdict: Verdict) -> bool:
+    return verdict.outcome == "passed" and verdict.tier == "identical" and drawn.yours is not None
+
+
+def _is_the_reference(verdict: Verdict) -> bool:
+    """Whether it shows what all who are right get to see: the judge hands out one object for it."""
+    drawn = verdict.figure
+    return drawn is not None and _is_right(drawn, verdict) and drawn.yours is drawn.expected
+
+
+class Shared(dict[str, Any]):
+    """A figure that many cards show, so that nobody changes it, with its JSON as it is written to a file."""
+
+    written: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +71,11 @@ class _Itself:
 
 
 @functools.lru_cache(maxsize=128)
-def _drawn_once(key: _Itself) -> dict[str, Any]:
-    """What all who are right get to see, drawn once: the judge hands out one object for it."""
-    return _drawn(key.figure, same=True)
+def _drawn_once(key: _Itself) -> Shared:
+    """What all who are right get to see, drawn and written once, with its configuration."""
+    shown = Shared({**_drawn(key.figure, same=True), "config": dict(CONFIG)})
+    shown.written = json.dumps(shown, sort_keys=True, ensure_ascii=False, allow_nan=False)
+    return shown
 
 
 def _drawn(drawn: Figure, *, same: bool) -> dict[str, Any]:
@@ -77,13 +96,14 @@ def _drawn(drawn: Figure, *, same: bool) -> dict[str, Any]:
 
 def figure_bundle(verdict: Verdict) -> dict[str, Any] | None:
     """The figure as a mime bundle, its description as the text, or None."""
-    built = figure(verdict)
-    if built is None:
-        return None
-    return {
-        "text/plain": say("figure.described", alt=built["layout"]["meta"]["alt"]),
-        PLOTLY: {**built, "config": dict(CONFIG)},
-    }
+    if verdict.figure is not None and _is_the_reference(verdict):
+        shown: dict[str, Any] = _drawn_once(_Itself(verdict.figure))
+    else:
+        built = figure(verdict)
+        if built is None:
+            return None
+        shown = {**built, "config": dict(CONFIG)}
+    return {"text/plain": say("figure.described", alt=shown["layout"]["meta"]["alt"]), PLOTLY: shown}
 
 
 def validated(built: Mapping[str, Any]) -> dict[str, Any]:

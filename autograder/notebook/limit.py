@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from autograder.messages import say
+from autograder.sandbox.outputs import Drawn
 
 MOST_SHOWN = 32_000_000
 
@@ -68,6 +69,11 @@ def _size(value: Any) -> int:
     """Characters of a JSON value, nearly."""
     if type(value) is str:
         return len(value)
+    if type(value) is Drawn:
+        if "size" not in value.found:
+            value.found["size"] = _size(dict(value))
+        size: int = value.found["size"]
+        return size
     if type(value) is dict or isinstance(value, Mapping):
         size = 0
         for key, part in value.items():

@@ -10,7 +10,7 @@ import secrets
 from collections.abc import Mapping
 from typing import Any
 
-from autograder.notebook.safe import FIGURE, Figure
+from autograder.notebook.safe import FIGURE
 
 
 def dumps(notebook: Mapping[str, Any]) -> bytes:
@@ -39,7 +39,7 @@ def _output(output: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any
         data = {mime: value.splitlines(True) if mime.startswith("text/") else value for mime, value in output["data"].items()}
         if isinstance(data.get(FIGURE), dict):
             place = secrets.token_hex(16)  # nothing that a learner wrote can be this
-            written = data[FIGURE].written if isinstance(data[FIGURE], Figure) else ""  # checked, so written, already
+            written = getattr(data[FIGURE], "written", "")  # where it was written already
             figures[place] = written or json.dumps(data[FIGURE], sort_keys=True, ensure_ascii=False, allow_nan=False)
             data[FIGURE] = place
         return {**output, "data": data}

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import json
 import re
+import threading
+from collections import OrderedDict
 from typing import Any
 
 from autograder.sandbox import messages
@@ -15,11 +17,14 @@ from autograder.sandbox.wire import WireError
 
 IMAGES = ("image/png", "image/jpeg", "image/gif")
 ACTIVE = ("text/html", "text/markdown", "text/latex")
-JSON_TYPES = ("application/json", "application/vnd.plotly.v1+json")
+FIGURE = "application/vnd.plotly.v1+json"
+JSON_TYPES = ("application/json", FIGURE)
 MIME_TYPES = ("text/plain", *ACTIVE, *IMAGES, *JSON_TYPES)
 BASE64 = re.compile(r"[A-Za-z0-9+/\s]*+={0,2}\s*+")  # possessive: linear on any input
 JSON_DEPTH = 40
 JSON_ITEMS = 300_000
+KEPT = 8_000_000  # characters of figures that are remembered: a class draws the same ones again and again
+KEPT_ITEMS = 20_000  # of one of them
 MORE_OUTPUTS, MORE_CHARACTERS = 200, 1_000_000  # notes, tracebacks, names of types
 MAX_PIXELS = 20_000
 LARGEST = 1.7e308
@@ -105,7 +110,7 @@ def _bundle(pairs: tuple[Any, ...]) -> dict[str, Any]:
         mime: str = pair[0]
         content: Any = pair[1]
         if mime in JSON_TYPES:
-            content = strict_json(content)
+            content = drawn(content) if mime == FIGURE else strict_json(content)
         elif mime in IMAGES:
             content = content if BASE64.fullmatch(content) else None
         elif mime in MIME_TYPES:
@@ -119,6 +124,55 @@ def _bundle(pairs: tuple[Any, ...]) -> dict[str, Any]:
     if not data:
         data["text/plain"] = messages.not_shown(", ".join(text(mime, 100) for mime in dropped[:3]))
     return data
+
+
+class Drawn(dict[str, Any]):
+    """A figure as it was read: one object for all who draw the same, so nobody changes it. ``found``: what was made of it."""
+
+    def __init__(self, value: dict[str, Any]) -> None:
+        super().__init__(value)
+        self.found: dict[str, Any] = {}
+
+
+class _Kept:
+    """The figures read last, by their text."""
+
+    def __init__(self) -> None:
+        self.figures: OrderedDict[str, Drawn] = OrderedDict()
+        self.size = 0
+        self.lock = threading.Lock()
+
+    def get(self, content: str) -> Drawn | None:
+        with self.lock:
+            figure = self.figures.get(content)
+            if figure is not None:
+                self.figures.move_to_end(content)
+            return figure
+
+    def put(self, content: str, figure: Drawn) -> None:
+        with self.lock:
+            if content not in self.figures:
+                self.figures[content] = figure
+                self.size += len(content)
+            while self.size > KEPT:
+                oldest, _ = self.figures.popitem(last=False)
+                self.size -= len(oldest)
+
+
+_kept = _Kept()
+
+
+def drawn(content: str) -> Any:
+    """As :func:`strict_json`, for a figure: what was read and checked once is not read again."""
+    figure = _kept.get(content)
+    if figure is None:
+        value = strict_json(content)
+        if not isinstance(value, dict):
+            return value
+        figure = Drawn(value)
+        if len(content) <= KEPT // 8 and sum(map(content.count, ",[{")) <= KEPT_ITEMS:
+            _kept.put(content, figure)
+    return figure
 
 
 def strict_json(content: str) -> Any:

@@ -163,3 +163,26 @@ def test_any_value_is_outputs_or_a_wire_error(value):
     for check in (lambda: outputs.outputs(value, 1000, 10), lambda: outputs.updates(value)):
         with contextlib.suppress(WireError):
             check()
+
+
+def test_a_figure_drawn_again_is_not_read_again():
+    text = json.dumps({"data": [{"type": "scatter", "y": [1, 2]}], "layout": {"title": "a"}})
+    figure = outputs.drawn(text)
+    assert figure == json.loads(text)
+    assert outputs.drawn(text) is figure
+    assert outputs.drawn(text.replace("1", "3")) == json.loads(text.replace("1", "3"))
+    for broken in ("[1]", "7", "{", '{"data": NaN}', '{"data": 1e400}'):
+        assert outputs.drawn(broken) == outputs.strict_json(broken)
+
+
+def test_what_is_remembered_of_figures_is_bounded():
+    kept = outputs._Kept()
+    for number in range(40):
+        text = json.dumps({"data": [], "layout": {"title": f"{number}" * (outputs.KEPT // 20)}})
+        kept.put(text, outputs.Drawn({}))
+        kept.put(text, outputs.Drawn({}))
+        assert kept.size == sum(map(len, kept.figures)) <= outputs.KEPT
+    assert 0 < len(kept.figures) < 20
+    assert outputs.drawn(json.dumps({"data": [0] * (outputs.KEPT_ITEMS + 1)})) is not outputs.drawn(
+        json.dumps({"data": [0] * (outputs.KEPT_ITEMS + 1)})
+    )
