@@ -6,7 +6,7 @@ that looks like numbers) or with a loss (complex numbers) is not.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
@@ -84,13 +84,32 @@ def ask(call: Callable[..., Any], arguments: tuple[Any, ...], *, whole: bool) ->
         with np.errstate(all="ignore"):
             return read(call(*arguments), whole=whole)
     except CallFailed as failure:
-        return Raised(
-            failure.kind, failure.message, failure.exception, tuple(failure.bases), failure.line, failure.source
-        )  # fmt: skip
+        return _failed(failure)
     except SandboxError:
         raise
     except (Exception, SystemExit) as failure:
         return raised(failure)
+
+
+def ask_in_turn(call: Callable[..., Any], sets: Sequence[tuple[Any, ...]], *, whole: bool) -> list[Answer]:
+    """:func:`ask` with one set of arguments after the other, ending with the first answer that is fatal.
+
+    Where ``call`` has a method ``in_turn`` that takes all sets at once, no time is lost between the calls.
+    """
+    together = getattr(call, "in_turn", None)
+    if together is not None:
+        with np.errstate(all="ignore"):
+            return [_failed(one) if isinstance(one, CallFailed) else read(one, whole=whole) for one in together(sets)]
+    answers: list[Answer] = []
+    for arguments in sets:
+        answers.append(ask(call, arguments, whole=whole))
+        if isinstance(answers[-1], Raised) and answers[-1].fatal:
+            break
+    return answers
+
+
+def _failed(failure: CallFailed) -> Raised:
+    return Raised(failure.kind, failure.message, failure.exception, tuple(failure.bases), failure.line, failure.source)
 
 
 def raised(failure: BaseException) -> Raised:

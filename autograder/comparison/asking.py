@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from autograder.comparison.answers import Answer, Numbers, Raised, ask
+from autograder.comparison.answers import Answer, Numbers, Raised, ask, ask_in_turn
 from autograder.comparison.samples import read_only
 from autograder.comparison.target import Target
 
@@ -51,55 +51,101 @@ class _Stopped(Exception):
 
 
 def ask_all(targets: Sequence[Target], call: Callable[..., Any]) -> list[Asked]:
-    """Make every planned call, data set by data set; end early where the function can answer no more."""
+    """Make every planned call, data set by data set; end early where the function can answer no more.
+
+    Once the first data set is answered in the right shape, so will be the others, most likely: the calls that will then be
+    made are made in turn, without a pause between them, and what they gave is taken when its time comes.
+    """
     asked = [Asked(target) for target in targets]
     whole = bool(targets[0].exercise.parameters) or not any(target.is_tuple for target in targets)
+    first = next((a for a in asked if not a.target.drawn.blind and not a.target.raises), None)
+    decided = any(target.hidden for target in targets)
+    ahead: dict[tuple[Asked, str], Answer] = {}
 
-    def put(place: Asked, name: str, *parameters: Any) -> Answer:
-        answer = ask(call, (*parameters, *place.target.arguments), whole=whole)
+    def put(place: Asked, name: str) -> Answer:
+        answer = ahead.pop((place, name), None)
+        if answer is None:
+            answer = ask(call, _arguments(place, name), whole=whole)
         setattr(place, name, answer)
         if isinstance(answer, Raised) and answer.fatal:
             raise _Stopped
         return answer
 
-    first = next((a for a in asked if not a.target.drawn.blind and not a.target.raises), None)
-    decided = any(target.hidden for target in targets)
+    def put_singles(place: Asked) -> None:
+        points = place.target.samples.points
+        sets = [(*map(float, points[i]), *place.target.arguments) for i in place.target.samples.singles]
+        answers = ask_in_turn(call, sets, whole=whole)
+        if isinstance(answers[-1], Raised) and answers[-1].fatal:
+            place.scalar = answers[-1]
+            raise _Stopped
+        place.singles = tuple(answers)
+
+    def every_form(place: Asked) -> bool:
+        return place.target.hidden or place is first or not decided
+
     try:
         for place in asked:
-            _ask_one(place, put, every_form=place.target.hidden or place is first or not decided)
+            _ask_one(place, put, put_singles, every_form=every_form(place))
+            if place is asked[0] and _fits(place):
+                planned = [(one, name) for one in asked[1:] for name in _forms(one, every_form=every_form(one))]
+                planned += [(first, name) for name in _more_forms(first)] if first is not None else []
+                answers = ask_in_turn(call, [_arguments(one, name) for one, name in planned], whole=whole)
+                ahead.update(zip(planned, answers, strict=False))
         if first is not None:
-            _ask_more(first, put)
+            for name in _more_forms(first):
+                put(first, name)
     except _Stopped:
         pass
     return asked
 
 
-def _ask_one(place: Asked, put: Callable[..., Answer], *, every_form: bool) -> None:
+def _ask_one(place: Asked, put: Callable[..., Answer], put_singles: Callable[[Asked], None], *, every_form: bool) -> None:
+    target = place.target
+    put(place, "vector")
+    if not target.exercise.parameters or target.raises or (_fits(place) and not every_form):
+        return
+    put(place, "mesh")
+    scalar = put(place, "scalar")
+    if not _fits(place) and _has_shape(scalar, target.values.shape[1:]):
+        put_singles(place)
+
+
+def _forms(place: Asked, *, every_form: bool) -> tuple[str, ...]:
+    """What is asked on one data set, if it is answered in the right shape."""
+    every_form = every_form and bool(place.target.exercise.parameters) and not place.target.raises
+    return ("vector", "mesh", "scalar") if every_form else ("vector",)
+
+
+def _more_forms(place: Asked) -> tuple[str, ...]:
+    """What is asked on the first data set in the end."""
+    return ("pair", "empty", "again") if place.target.exercise.parameters else ("again",)
+
+
+def _arguments(place: Asked, name: str) -> tuple[Any, ...]:
+    """The arguments of a call."""
     target = place.target
     if not target.exercise.parameters:
-        put(place, "vector")
-        return
+        return tuple(target.arguments)
     samples = target.samples
-    vector = put(place, "vector", *samples.columns())
-    if target.raises or (_has_shape(vector, target.values.shape) and not every_form):
-        return
-    put(place, "mesh", *samples.open_mesh())
-    scalar = put(place, "scalar", *(float(x) for x in samples.points[-1]))
-    tail = target.values.shape[1:]
-    if not _has_shape(vector, target.values.shape) and _has_shape(scalar, tail):
-        place.singles = tuple(put(place, "scalar", *(float(x) for x in samples.points[i])) for i in samples.singles)
-        place.scalar = scalar
-
-
-def _ask_more(place: Asked, put: Callable[..., Answer]) -> None:
-    target = place.target
-    if target.exercise.parameters:
-        put(place, "pair", *target.samples.columns(np.array(PAIR)))
-        put(place, "empty", *(read_only(np.empty(0)) for _ in target.names))
-        put(place, "again", *target.samples.columns())
+    parameters: tuple[Any, ...]
+    if name == "mesh":
+        parameters = samples.open_mesh()
+    elif name == "scalar":
+        parameters = tuple(map(float, samples.points[-1]))
+    elif name == "pair":
+        parameters = samples.columns(np.array(PAIR))
+    elif name == "empty":
+        parameters = tuple(read_only(np.empty(0)) for _ in target.names)
     else:
-        put(place, "again")
+        parameters = samples.columns()
+    return (*parameters, *target.arguments)
 
 
-def _has_shape(answer: Answer, shape: tuple[int, ...]) -> bool:
+def _fits(place: Asked) -> bool:
+    """Whether vectors are answered in the right shape, so that the answers to the next calls need not be seen first."""
+    target = place.target
+    return not target.exercise.parameters or (not target.raises and _has_shape(place.vector, target.values.shape))
+
+
+def _has_shape(answer: Answer | None, shape: tuple[int, ...]) -> bool:
     return isinstance(answer, Numbers) and answer.values.shape == shape

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from autograder.comparison.answers import Array, Numbers, ask
+from autograder.comparison.answers import Array, Numbers, ask, ask_in_turn
 from autograder.comparison.gates import LARGEST
 from autograder.comparison.samples import read_only
 from autograder.comparison.target import Target
@@ -98,8 +98,8 @@ def _yours(finding: Finding, call: Callable[..., Any], points: Array, *, single_
     if gated.sampled is None:
         return None
     if single_only:
-        values = [ask(call, (*map(float, p), *target.arguments), whole=True) for p in points]
-        if all(isinstance(v, Numbers) and v.values.shape == (3,) for v in values):
+        values = ask_in_turn(call, [(*map(float, p), *target.arguments) for p in points], whole=True)
+        if len(values) == len(points) and all(isinstance(v, Numbers) and v.values.shape == (3,) for v in values):
             return np.stack([v.values for v in values if isinstance(v, Numbers)])
         return None
     if "vector" not in {t.form for t in gated.troubles}:

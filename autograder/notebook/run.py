@@ -58,6 +58,7 @@ class Session(Protocol):
     def alive(self) -> bool: ...  # noqa: D102
     def run_cell(self, source: str) -> Result: ...  # noqa: D102
     def call(self, name: str, args: Sequence[Any]) -> Any: ...  # noqa: D102
+    def call_all(self, name: str, sets: Sequence[Sequence[Any]], *, deadline: float) -> list[Any]: ...  # noqa: D102
     def files(self) -> dict[str, bytes]: ...  # noqa: D102
 
 
@@ -215,17 +216,14 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
         try:
             return session.call(id, args)
         except CallFailed as failure:
-            if runner.by_clock(failure.kind):
-                raise SandboxError(say("graded.hurried")) from None
-            failure.args = (told(failure.message),)
+            runner.told(failure)
             raise
-
-    def call(*args: Any) -> Any:
-        return called(name, args)
 
     after = runner.after
     try:
-        verdict = judge(exercise, call, seed=seed(name), earlier=lambda: before.used_by(name, called))
+        verdict = judge(
+            exercise, _Function(name, called, session, runner), seed=seed(name), earlier=lambda: before.used_by(name, called)
+        )
     except Exception as error:  # the grader's own fault is never the learner's zero
         log.exception("the judge failed on %s", name)
         note = runner.fault(say("graded.fault_judge", name=name, exception=type(error).__name__, message=error))
@@ -238,6 +236,31 @@ def _judge(runner: _Runner, exercise: Exercise | None, name: str, seed: Callable
     if verdict.outcome == "could not judge":
         return CellRun("judged", verdict, runner.fault(f"{name}: {verdict.message}"))
     return CellRun("judged", verdict)
+
+
+@dataclass(frozen=True)
+class _Function:
+    """The learner's function, as the judge calls it: once, or with one set of arguments after the other."""
+
+    name: str
+    called: Callable[[str, tuple[Any, ...]], Any]
+    session: Any
+    runner: _Runner
+
+    def __call__(self, *args: Any) -> Any:
+        return self.called(self.name, args)
+
+    def in_turn(self, sets: Sequence[tuple[Any, ...]]) -> list[Any]:
+        """What each call gives, or how it fails, up to the first after which none can answer."""
+        if self.runner.late:
+            raise SandboxError(self.runner.spent)
+        answers: list[Any] = self.session.call_all(self.name, sets, deadline=self.runner.deadline)
+        for answer in answers:
+            if isinstance(answer, CallFailed):
+                self.runner.told(answer)
+        if len(answers) < len(sets) and self.runner.late:
+            raise SandboxError(self.runner.spent)
+        return answers
 
 
 def _unjudged(name: str, message: str, exercise: Exercise | None = None) -> Verdict:
@@ -327,6 +350,12 @@ class _Runner:
     def after(self) -> str:
         """Why what fails from here on has no mark; empty as long as it is the learner's own."""
         return say("graded.after") if self.hurried else say("graded.faulty") if self.faults else ""
+
+    def told(self, failure: CallFailed) -> None:
+        """Put into the course's words how a call failed; what the clock stopped is no failure of the learner's."""
+        if self.by_clock(failure.kind):
+            raise SandboxError(say("graded.hurried")) from None
+        failure.args = (told(failure.message),)
 
     def by_clock(self, status: str) -> bool:
         """Whether what has just ended so was stopped by the clock with CPU time left; ``hurried`` from then on."""

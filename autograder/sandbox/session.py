@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import socket
 import time
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import TracebackType
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
+
+import numpy as np
 
 from autograder.errors import CallFailed, SandboxError
 from autograder.sandbox import messages, outputs, wire
@@ -18,6 +21,8 @@ from autograder.sandbox.wire import Value, WireError
 ROOM = 4 * 2**20  # of a frame beyond the text it shows: tracebacks, names, framing
 START_SECONDS = 30.0
 STATUSES = ("ok", "error", "timeout", "memory")
+T = TypeVar("T")
+TOGETHER = 48 * 1024  # bytes of arguments sent at once: what a socket takes without anybody reading
 FAILURES = ("error", "timeout", "memory", "refused", "missing")
 
 
@@ -147,6 +152,45 @@ class Session:
         except Over as over:
             raise CallFailed(over.ended.kind, over.ended.message) from None
 
+    def call_all(
+        self, name: str, sets: Sequence[Sequence[Value]], *, deadline: float = math.inf, limits: Limits | None = None
+    ) -> list[Value | CallFailed]:
+        """Call a function with one set of arguments after the other, each call as :meth:`call`, without waiting between them.
+
+        Returns what each of them gave or how it failed, up to the first after which no call can be answered, or until the
+        clock (``time.monotonic``) passes the ``deadline``, which ends the session.
+
+        Raises
+        ------
+        SandboxError
+            If the sandbox itself fails, or an argument cannot be sent.
+        """
+        limits = limits or self.limits
+        answers: list[Value | CallFailed] = []
+        for some in _posted_together(sets):
+            exchange, before = b"", math.inf
+            for _ in some:
+                action = self._action(messages.CALL, limits.call_cpu, limits, limits.answer + ROOM)
+                # The child is ahead of us, so this call may have begun while we still took the answer to the one before.
+                self._action_began, before = min(before, self._action_began), self._action_began
+                if self.ended is None and time.monotonic() > deadline:
+                    self._process.kill()
+                    self.ended = Ended("timeout", messages.wall_time(action.what, action.wall), "wall")
+                if self.ended is not None:
+                    return [*answers, CallFailed("died", self.ended.message)]
+                try:
+                    if not exchange:
+                        request = (name, action.cpu, action.wall, limits.answer, *map(tuple, some))
+                        exchange = self._guarded(self._process.post, wire.CALLS, request, action)
+                    answers.append(self._answer(self._guarded(self._process.take, exchange, action), action))
+                except Over as over:
+                    return [*answers, CallFailed(over.ended.kind, over.ended.message)]
+                except CallFailed as failure:
+                    answers.append(failure)
+                    if failure.kind in wire.FATAL:
+                        return answers
+        return answers
+
     def files(self) -> dict[str, bytes]:
         """Regular files of the notebook's working folder by relative path; links and everything else are left out.
 
@@ -205,8 +249,12 @@ class Session:
 
     def _ask(self, kind: int, request: tuple[Any, ...], action: Action, beside: Beside | None = None) -> Any:
         """One exchange; whatever ends the process ends the session, and is raised as Over or SandboxError."""
+        return self._guarded(self._process.ask, kind, request, action, beside)
+
+    def _guarded(self, exchange: Callable[..., T], *given: Any) -> T:
+        """What an exchange gives; whatever ends the process ends the session, and is raised as Over or SandboxError."""
         try:
-            return self._process.ask(kind, request, action, beside)
+            return exchange(*given)
         except Over as over:
             self.ended = over.ended
             raise
@@ -269,6 +317,23 @@ def _checked_cell(answer: Any, limits: Limits) -> tuple[CellStatus, int, list[An
         if output["output_type"] == "execute_result":
             output["execution_count"] = number
     return answer[0], number, shown, changed
+
+
+def _posted_together(sets: Sequence[Sequence[Value]]) -> Iterator[list[Sequence[Value]]]:
+    """The sets in order, in groups that are sent in one message each."""
+    group: list[Sequence[Value]] = []
+    size = 0
+    for arguments in sets:
+        length = sum(one.nbytes + 64 if isinstance(one, np.ndarray) else 64 for one in arguments)
+        if not all(isinstance(one, np.ndarray | int | float | str | None) for one in arguments):
+            length = TOGETHER  # curves and tuples go alone
+        if group and size + length > TOGETHER:
+            yield group
+            group, size = [], 0
+        group.append(arguments)
+        size += length
+    if group:
+        yield group
 
 
 def _checked_failure(answer: Any) -> CallFailed:

@@ -82,6 +82,10 @@ class Server:
     def answer(self) -> None:
         """Read one request and answer it."""
         kind, exchange, request = self.request()
+        if kind == wire.CALLS:
+            for one in self.calls_in_turn(*request):
+                self.link.sendall(wire.frame(wire.DONE, exchange, wire.encode(one, depth=RESULT_DEPTH)))
+            return
         if kind == wire.CELL:
             answer: Any = self.cell(*request)
         elif kind == wire.CALL:
@@ -139,6 +143,16 @@ class Server:
             if size > limit:
                 raise answers.Refused(f"the answer has {size} bytes; at most {limit} are taken")
         return tuple(failure) or answer
+
+    def calls_in_turn(
+        self, name: str, cpu: float, wall: float, limit: int, *sets: tuple[Any, ...]
+    ) -> Iterator[tuple[Any, ...]]:
+        """Call a function with one set of arguments after the other, until one call ends so that no later one could answer."""
+        for arguments in sets:
+            answer = self.call(name, arguments, cpu, wall, limit)
+            yield answer
+            if answer[0] is False and answer[1] in wire.FATAL:
+                return
 
     def serve(self, cpu: float, wall: float, output: int) -> None:
         """Let the tests' process call this notebook's functions, until it is done with a cell."""

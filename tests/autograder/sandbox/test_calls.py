@@ -1,10 +1,13 @@
 """Calls of learners' functions: values in, values out, and a helpful account of what went wrong."""
 
+import time
+
 import numpy as np
 import pytest
 
 from autograder.curvedata import CurveData, SurfaceData
 from autograder.errors import CallFailed, SandboxError
+from autograder.sandbox import Limits
 
 CURVE = CurveData([0, 1], np.array([[[1.0, 0, 0], [0, 2, 0]]]))
 
@@ -207,3 +210,79 @@ def test_messages_from_inside_have_no_terminal_escapes_and_an_end(session):
     message = failed(session).message
     assert "\x1b" not in message
     assert len(message) <= 2000
+
+
+IN_TURN = """
+import numpy as np, time
+seen = []
+def f(x):
+    seen.append(x)
+    if x == "stop":
+        while True:
+            pass
+    if x == "fail":
+        raise KeyError(x)
+    return np.random.random(), len(seen)
+def again():
+    return len(seen)
+"""
+
+
+def test_calls_in_turn_answer_as_calls_one_by_one_do(sandbox):
+    with sandbox.open(seed=3) as one, sandbox.open(seed=3) as other:
+        one.run_cell(IN_TURN), other.run_cell(IN_TURN)
+        together = one.call_all("f", [[1.0], ["fail"], [2.0]])
+        assert [one.call("again", []), together[0], together[2]] == [3, other.call("f", [1.0]), (together[2][0], 3)]
+        assert (together[1].kind, together[1].exception, together[1].line) == ("error", "KeyError", 9)
+        with pytest.raises(CallFailed):
+            other.call("f", ["fail"])
+        assert together[2] == other.call("f", [2.0])
+
+
+def test_calls_in_turn_end_with_the_first_that_runs_out_of_time(sandbox):
+    limits = Limits(call_cpu=0.2)
+    with sandbox.open(limits=limits) as session:
+        session.run_cell(IN_TURN)
+        answers = session.call_all("f", [[1.0], ["stop"], [2.0], [3.0]])
+        assert [type(answer) for answer in answers] == [tuple, CallFailed]
+        assert answers[1].kind == "timeout"
+        assert session.call("again", []) == 2
+        assert [answer.kind for answer in session.call_all("g", [[1.0], [2.0]])] == ["missing"]
+
+
+def test_calls_in_turn_of_many_bytes_are_sent_in_several_messages(sandbox):
+    with sandbox.open() as session:
+        session.run_cell("def f(x):\n    return x + 1")
+        sets = [[np.full(3000, float(number))] for number in range(40)]
+        assert [float(answer[0]) for answer in session.call_all("f", sets)] == [number + 1.0 for number in range(40)]
+
+
+def test_calls_in_turn_end_with_the_process(sandbox):
+    with sandbox.open() as session:
+        session.run_cell("import os\ndef f(x):\n    return x if x < 2 else os._exit(3)")
+        answers = session.call_all("f", [[0], [1], [2], [3]])
+        assert answers[:2] == [0, 1]
+        assert answers[2].kind == "died"
+        assert len(answers) == 3
+        assert [answer.kind for answer in session.call_all("f", [[0], [1]])] == ["died"]
+
+
+def test_calls_in_turn_end_at_a_deadline(sandbox):
+    with sandbox.open() as session:
+        session.run_cell("import time\ndef f(x):\n    time.sleep(0.2)\n    return x")
+        answers = session.call_all("f", [[number] for number in range(20)], deadline=time.monotonic() + 0.5)
+        assert 1 < len(answers) < 6
+        assert answers[-1].kind == "died"
+        assert not session.alive
+
+
+def test_an_answer_to_no_call_ends_calls_in_turn(sandbox):
+    """The learner's code writes whole frames itself, and more of them than there are calls."""
+    with sandbox.open() as session:
+        session.run_cell(
+            "import os\nfrom autograder.sandbox import wire\n"
+            "def f(x):\n    os.write(3, wire.frame(wire.DONE, b'0' * 16, wire.encode((True, 1.0))))\n    return x"
+        )
+        answers = session.call_all("f", [[0.0], [1.0]])
+        assert [answer.kind for answer in answers] == ["refused"]
+        assert not session.alive
