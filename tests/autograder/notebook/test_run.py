@@ -263,7 +263,7 @@ def test_a_function_that_sleeps_in_every_call_does_not_keep_the_class_waiting():
     instructors = master(a_test("t", "check(cylinder)", 4.0))
     started = time.monotonic()
     _, ran, given = graded(instructors, cell("", "t"), session=Sleepy, seconds=0.1)
-    assert time.monotonic() - started < 1
+    assert time.monotonic() - started < 5
     assert given["t"].points is None
     assert "time" in given["t"].note
     assert ran.faults == []

@@ -93,7 +93,7 @@ def test_true_images_pass():
 def test_a_long_false_image_is_refused_in_linear_time():
     began = time.perf_counter()
     assert "image/png" not in display({"image/png": " " * 900_000 + "<"})["data"]
-    assert time.perf_counter() - began < 1  # quadratic: minutes
+    assert time.perf_counter() - began < 20  # quadratic: minutes
 
 
 @pytest.mark.parametrize(
