@@ -88,7 +88,7 @@ def _cell(cell: Mapping[str, Any], sheet: Sheet, image: FindImage | None) -> dic
     checked = checked_name(cell["source"]) if graded and kind == "code" else None
     outputs = [_output(output, judged=checked is not None) for output in cell.get("outputs", ())]
     if kind == "markdown":
-        body = to_html(cell["source"], attachments=cell.get("attachments", {}), image=image)
+        body = _markdown(cell["source"], cell.get("attachments", {}), image)
     else:
         body = _code(cell["source"]) if kind == "code" else f"<pre>{Markup.escape(cell['source'])}</pre>"
     return {
@@ -160,6 +160,18 @@ def _text(value: Any) -> Any:
     return "".join(value) if isinstance(value, list) and all(isinstance(line, str) for line in value) else value
 
 
+def _markdown(source: str, attachments: Mapping[str, Any], image: FindImage | None) -> str:
+    """A text, rendered once for all learners where it can show no picture."""
+    pictures = attachments or "![" in source or "<img" in source.lower()
+    return to_html(source, attachments=attachments, image=image) if pictures else _text_only(source)
+
+
+@functools.lru_cache(maxsize=1000)  # the instructor's texts, which come again with every learner
+def _text_only(source: str) -> str:
+    return to_html(source)
+
+
+@functools.lru_cache(maxsize=1000)
 def _code(source: str) -> str:
     return str(pygments.highlight(source, Python3Lexer(), HtmlFormatter(nowrap=False, cssclass="highlight")))
 
