@@ -292,7 +292,7 @@ def otter(scratch: Path, notebook: Path) -> Figures | None:
     place = scratch / "otter"
     commands = [
         ["uv", "venv", "-q", str(place)],
-        ["uv", "pip", "install", "-q", "--python", f"{place}/bin/python", "otter-grader", "numpy"],
+        ["uv", "pip", "install", "-q", "--python", f"{place}/bin/python", "otter-grader", "ipykernel", "numpy"],
     ]
     try:
         for command in commands:
