@@ -282,7 +282,7 @@ area_of_two_passes = None
 
 
 # %%
-def area(f, n=120):
+def area(f, n=60):
     t = np.linspace(0, 1, n + 1)
     p = f(t[:, None], t[None, :])
     rising, falling = p[1:, 1:] - p[:-1, :-1], p[:-1, 1:] - p[1:, :-1]  # the diagonals of each mesh
@@ -381,17 +381,18 @@ reveal(equal_radii, "horn: the hole has just closed to a point")
 
 turn = np.linspace(0, 2 * np.pi, 181)
 tori = {"ring": (0, 3), "horn": (10.5, 1), "spindle": (17, 0.5), "sphere": (22.5, 0)}
-figure = go.Figure().update_layout(height=200, template="none", showlegend=False)
-figure.update_layout(margin={"l": 5, "r": 5, "t": 5, "b": 5})
+dashed = {"color": "#888", "dash": "dash", "width": 1}
+drawn = []
 for name, (place, R) in tori.items():
-    axis = {"color": "#888", "dash": "dash", "width": 1}
-    figure.add_scatter(x=[place] * 2, y=[-1.6, 1.6], mode="lines", line=axis)
+    drawn.append({"mode": "lines", "x": [place] * 2, "y": [-1.6, 1.6], "line": dashed})
     for side, colour in ((1, "#0072B2"), (-1, "#D55E00")):
         x = place + side * (R + np.cos(turn))
-        figure.add_scatter(x=x, y=np.sin(turn), mode="lines", line={"color": colour, "width": 3})
-    figure.add_annotation(x=place, y=2.2, text=f"<b>{name}</b>, R = {R}", showarrow=False)
-figure.update_xaxes(visible=False, range=[-4.5, 24.5])
-figure.update_yaxes(visible=False, scaleanchor="x", range=[-1.8, 2.8])
+        drawn.append({"mode": "lines", "x": x, "y": np.sin(turn), "line": {"color": colour, "width": 3}})
+    drawn.append({"mode": "text", "x": [place], "y": [2.3], "text": [f"<b>{name}</b>, R = {R}"], "hoverinfo": "skip"})
+across = {"visible": False, "range": [-4.5, 24.5]}
+upwards = {"visible": False, "range": [-1.8, 2.8], "scaleanchor": "x"}
+frame = {"height": 200, "template": "none", "showlegend": False, "margin": {"l": 5, "r": 5, "t": 5, "b": 5}}
+go.Figure(drawn, {**frame, "xaxis": across, "yaxis": upwards})
 
 # %% [markdown]
 # **Task (torus_class).** Return the name as a string. Where there is no torus at all, for $R < 0$ or $r \le 0$, raise a
