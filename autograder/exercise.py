@@ -88,12 +88,16 @@ class Drawn:
 
 @dataclass(frozen=True)
 class Mistake:
-    """A known wrong formula, runnable, with the hint that a learner reads. ``credit`` None: the credit of its tier."""
+    """A known wrong formula, runnable, with the hint that a learner reads. ``credit`` None: the credit of its tier.
+
+    ``way`` is 0 for the mistake as it was declared, and counts the other ways of writing it.
+    """
 
     id: str
     formula: Callable[..., Any]
     hint: str
     credit: float | None = None
+    way: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,6 +131,7 @@ class Exercise:
     public_seed: int | bytes = PUBLIC_SEED
     data_sets: list[DataSet] = field(default_factory=list)
     mistakes: list[Mistake] = field(default_factory=list)
+    ways: list[Mistake] = field(default_factory=list)
     constructions: list[Construction] = field(default_factory=list)
 
     def __call__(self, *args: Any, **kwargs: Any) -> Any:
@@ -173,15 +178,35 @@ class Exercise:
                 raise ExerciseError(f"{self.id}: mistake {id!r} is there twice; choose another name")
             if credit is not None and not 0 <= credit < 1:
                 raise ExerciseError(f"{self.id}: the credit of mistake {id!r} must lie in [0, 1); got {credit!r}")
-            names = tuple(inspect.signature(function).parameters)
-            if names != self.arguments:
-                raise ExerciseError(
-                    f"{self.id}: mistake {id!r} must take {self.arguments}, as the reference does; it takes {names}"
-                )
+            self._same_arguments(id, function)
             self.mistakes.append(Mistake(id, function, " ".join(hint.split()), credit))
             return function
 
         return register
+
+    def also(self, id: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+        """Register another way of writing the mistake ``id``, with other values, the same hint and the same credit.
+
+        A wrong length, say, may be put beside the right direction, or be what the direction is divided by.
+        """
+
+        def register(function: Callable[..., Any]) -> Callable[..., Any]:
+            known = next((one for one in self.mistakes if one.id == id), None)
+            if known is None:
+                raise ExerciseError(f"{self.id}: there is no mistake {id!r} yet to write in another way; declare it first")
+            self._same_arguments(id, function)
+            way = 1 + sum(one.id == id for one in self.ways)
+            self.ways.append(replace(known, formula=function, way=way))
+            return function
+
+        return register
+
+    def _same_arguments(self, id: str, function: Callable[..., Any]) -> None:
+        names = tuple(inspect.signature(function).parameters)
+        if names != self.arguments:
+            raise ExerciseError(
+                f"{self.id}: mistake {id!r} must take {self.arguments}, as the reference does; it takes {names}"
+            )
 
     def built_from(self, *blocks: Exercise) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
         """Register how the answer is built from earlier exercises, for the judge to tell whose fault a wrong one is.

@@ -482,6 +482,14 @@ def _(R, r):
     return "ring" if r < R else "spindle"
 
 
+@torus_class.also("equal_radii_sphere")  # beside the right answer for R = 0
+def _(R, r):
+    _must_be_a_torus(R, r)
+    if r == R or R == 0:
+        return "sphere"
+    return "ring" if r < R else "spindle"
+
+
 @torus_class.mistake("sphere_never", credit=0.5)
 def _(R, r):
     """You treat R = 0 like any other small R. Let R shrink to nothing and watch the small circle: where is its centre in the

@@ -107,18 +107,31 @@ def _(a, b):
 
 @direction_cosines.mistake("taxicab", credit=0.5)
 def _(a, b):
-    """The direction is right. For d you added up the steps along x, y and z, as a taxi drives round the blocks; the distance is
-    the straight way. For the vector (1, 2, 2) it is 3, not 5."""
+    """For d you added up the steps along x, y and z, as a taxi drives round the blocks; the distance is the straight way. For
+    the vector (1, 2, 2) it is 3, not 5."""
     step, d = _step(a, b)
     return np.array([*step / d, np.abs(step).sum()])
 
 
+@direction_cosines.also("taxicab")  # and divided by it
+def _(a, b):
+    step, _ = _step(a, b)
+    d = np.abs(step).sum()
+    return np.array([*step / d, d])
+
+
 @direction_cosines.mistake("squared", credit=0.5)
 def _(a, b):
-    """The direction is right. Your d is the *square* of the distance: if the points are given in millimetres, in which unit is
-    yours?"""
+    """Your d is the *square* of the distance: if the points are given in millimetres, in which unit is yours? Between (0, 0, 0)
+    and (1, 2, 2) the distance is 3."""
     step, d = _step(a, b)
     return np.array([*step / d, d**2])
+
+
+@direction_cosines.also("squared")  # and divided by it
+def _(a, b):
+    step, _ = _step(a, b)
+    return np.array([*step / (step @ step), step @ step])
 
 
 @direction_cosines.mistake("distance_first", credit=0.75)

@@ -165,6 +165,11 @@ def _(u, w, curve, angle):
     return points(*about_y(*coordinates(curve, u), angle * w - np.pi / 2))
 
 
+@revolve_y.also("starts_in_yz")  # the two words exchanged, and no sign: it turns the other way from there
+def _(u, w, curve, angle):
+    return points(*about_y(*coordinates(curve, u), np.pi / 2 - angle * w))
+
+
 @revolve_y.mistake("flat_profile_only", credit=0.5)
 def _(u, w, curve, angle):
     """Right for a flat profile in the xy-plane, as on the board; but this curve leaves that plane, and you dropped its z. A point
@@ -235,6 +240,13 @@ def _(u, w, curve, axis, angle):
     and there the two coordinates come in the order z, x. Take the point (0, 0, 1) a quarter turn about y: it must come to +x."""
     sense = -1 if axis == "y" else 1
     return points(*ABOUT[axis](*coordinates(curve, u), sense * angle * w))
+
+
+@revolve_coord.also("y_sign_like_x_z")  # in one place only: the sine that carries z to x
+def _(u, w, curve, axis, angle):
+    x, y, z = coordinates(curve, u)
+    c, s = np.cos(angle * w), np.sin(angle * w)
+    return points(x * c - z * s, y, z * c - x * s) if axis == "y" else points(*ABOUT[axis](x, y, z, angle * w))
 
 
 @revolve_coord.mistake("all_negative", credit=0.5)

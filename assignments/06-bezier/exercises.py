@@ -526,6 +526,11 @@ def _(G):
     return _bezier(G, 1.0, 1.0)
 
 
+@hermite_to_bezier.also("no_third")  # with the right share of the twist
+def _(G):
+    return _bezier(G, 1.0)
+
+
 @hermite_to_bezier.mistake("twist_third", credit=0.75)
 def _(G):
     """The twelve points of the boundary are right; in your four inner ones the twist counts too much. It is a derivative by u
@@ -545,6 +550,11 @@ def _(G):
     """At the near ends all is right. At the far ends you *added* the tangent, so your control points lie outside the patch,
     beyond its edges. The parameter arrives at the far corner: on which side of it is the point before?"""
     return _bezier(G, far=1.0)
+
+
+@hermite_to_bezier.also("far_end_plus")  # every sign a plus, that of the twist too
+def _(G):
+    return _bezier(G, far=1.0, mixed=1.0)
 
 
 @hermite_to_bezier.mistake("twist_sign_mixed", credit=0.75)

@@ -95,18 +95,30 @@ def the_bezier_case(rng):
 
 @open_knots.mistake("order_minus_one", credit=0.5)
 def _(m, k):
-    """At the ends your knots occur only k - 1 times, and so the numbers between run one too far. k times is what it takes for
-    the curve to reach its first and its last control point. Count your zeros."""
+    """At the ends your knots occur only k - 1 times. k times is what it takes for the curve to reach its first and its last
+    control point. Count your zeros."""
     _must_fit(m, k)
     return clamped(m + k, k - 1, m - k + 3)
 
 
+@open_knots.also("order_minus_one")  # the numbers between as they should be: two knots too few
+def _(m, k):
+    _must_fit(m, k)
+    return clamped(m + k, k, m - k + 1)[1:-1]
+
+
 @open_knots.mistake("length_m", credit=0.5)
 def _(m, k):
-    """Your vector is one knot short: the last one occurs k - 1 times only. There must be m + k of them, one for each control
+    """Your vector is one knot short: at one end yours occurs k - 1 times only. There must be m + k of them, one for each control
     point and k more. Count them at both ends."""
     _must_fit(m, k)
     return clamped(m + k, k, m - k + 1)[:-1]
+
+
+@open_knots.also("length_m")  # one short at the other end
+def _(m, k):
+    _must_fit(m, k)
+    return clamped(m + k, k, m - k + 1)[1:]
 
 
 @open_knots.mistake("uniform", credit=0.25)
@@ -131,6 +143,12 @@ def _(m, k):
     influence at all. With which number should the inner knots begin?"""
     _must_fit(m, k)
     return clamped(m + k, k + 1, m - k)
+
+
+@open_knots.also("repeated_inner")  # the numbers between begin with 0 and so end one too early
+def _(m, k):
+    _must_fit(m, k)
+    return np.array([0] * k + [*range(m - k)] + [m - k + 1] * k)
 
 
 @open_knots.mistake("order_is_degree", credit=0.5)
@@ -250,12 +268,23 @@ def _(t, knots, k):
     return _recursion(t, knots, k + 1)
 
 
+@bspline_basis.also("order_is_degree")  # filled up with zeros to m columns
+def _(t, knots, k):
+    N = _recursion(t, knots, k + 1)
+    return np.concatenate([N, np.zeros((*N.shape[:-1], 1))], axis=-1)
+
+
 @bspline_basis.mistake("order_short", credit=0.5)
 def _(t, knots, k):
     """You stopped one step too early: yours are functions of order k - 1. Python's range ends before its second number. Look at
     the graph of a cubic function: does yours have kinks?"""
     N = _recursion(t, knots, k - 1)
     return N[..., : len(knots) - k]
+
+
+@bspline_basis.also("order_short")  # all of them, one more than there are control points
+def _(t, knots, k):
+    return _recursion(t, knots, k - 1)
 
 
 @bspline_basis.mistake("double_closed", credit=0.5)
@@ -502,6 +531,12 @@ def _(u, w, P, h, k, l):
     the weight of another one. The four corners hide it. Which weight belongs to P[0, 1]?"""
     h = np.asarray(h, dtype=float)
     return dx.NurbsPatch(P, h.T.reshape(h.shape), k, l)(u, w)
+
+
+@nurbs_patch.also("weights_transposed")  # written row by row, read column by column
+def _(u, w, P, h, k, l):
+    h = np.asarray(h, dtype=float)
+    return dx.NurbsPatch(P, h.ravel().reshape(h.shape, order="F"), k, l)(u, w)
 
 
 @nurbs_patch.mistake("divided_by_total", credit=0.5)

@@ -18,7 +18,7 @@ from autograder.authoring.sampling import answer, apart, refuses
 from autograder.catalogue import Assignment
 from autograder.curvedata import CurveData, SurfaceData
 from autograder.errors import CourseError
-from autograder.exercise import PUBLIC_SEED, Drawn, Exercise
+from autograder.exercise import PUBLIC_SEED, Drawn, Exercise, Mistake
 from autograder.judge import judge
 from autograder.notebook import own, source
 
@@ -185,12 +185,12 @@ def nothing_scores_nothing(exercise: Exercise, seeds: Sequence[int]) -> Found:
 def each_mistake_is_seen(exercise: Exercise, seeds: Sequence[int]) -> Found:
     """A blind data set never decides alone, and no draw of random data may hide a mistake."""
     data = [(seed, [drawn for drawn in exercise.draw(seed) if not drawn.blind]) for seed in seeds]
-    for mistake in exercise.mistakes:
+    for mistake in [*exercise.mistakes, *exercise.ways]:
         for seed, seeing in data:
             far = {drawn.name: _distance(exercise, mistake.formula, drawn) for drawn in seeing}
             if max(far.values()) <= SEEN:
                 told = ", ".join(f"{distance:.2g} on {name!r}" for name, distance in far.items())
-                said = f"mistake {mistake.id!r} hardly differs from the reference under seed {seed} (relative to size: {told})"
+                said = f"mistake {_named(mistake)} hardly differs from the reference under seed {seed} (of its size: {told})"
                 yield said, f"add a data set that is not blind and on which it differs by more than {SEEN:g}"
                 break
 
@@ -201,29 +201,29 @@ def no_two_mistakes_coincide(exercise: Exercise, seeds: Sequence[int]) -> Found:
     found = set()
     for seed in seeds[:10]:
         data = exercise.draw(seed)
-        answers = {m.id: [answer(exercise, m.formula, drawn) for drawn in data] for m in exercise.mistakes}
+        every = [*exercise.mistakes, *exercise.ways]
+        answers = {_named(m): [answer(exercise, m.formula, drawn) for drawn in data] for m in every}
         for (one, first), (other, second) in itertools.combinations(answers.items(), 2):
             if (one, other) not in found and max(map(apart, first, second)) <= SEEN:
                 found.add((one, other))
                 to_do = "add a data set on which they differ, or make one mistake of the two"
-                yield f"mistakes {one!r} and {other!r} give the same answers on all data under seed {seed}", to_do
+                yield f"mistakes {one} and {other} give the same answers on all data under seed {seed}", to_do
 
 
 @_rule("named", RULES)
 def each_mistake_is_named_as_itself(exercise: Exercise, seeds: Sequence[int]) -> Found:
     """By the judge, with the credit that was set."""
-    for mistake in exercise.mistakes:
+    for mistake in [*exercise.mistakes, *exercise.ways]:
         for seed in JUDGED:
             verdict = judge(exercise, mistake.formula, seed=seed, figure=False)
             if (verdict.mistake, verdict.tier) != (mistake.id, "mistake") or mistake.hint not in verdict.message:
                 got = f"as {verdict.mistake!r}" if verdict.mistake else f"not at all (tier {verdict.tier!r})"
-                said = f"the judge names mistake {mistake.id!r} {got} under seed {seed!r}"
+                said = f"the judge names mistake {_named(mistake)} {got} under seed {seed!r}"
                 yield said, "make it differ more, from the reference or from that other mistake"
                 break
             if mistake.credit is not None and verdict.fraction != mistake.credit:
-                said = (
-                    f"mistake {mistake.id!r} earns {verdict.fraction:g} under seed {seed!r}, not its credit {mistake.credit:g}"
-                )
+                earns = f"earns {verdict.fraction:g} under seed {seed!r}, not its credit {mistake.credit:g}"
+                said = f"mistake {_named(mistake)} {earns}"
                 yield said, "see that it handles every shape of input and refuses what the reference refuses"
                 break
 
@@ -298,6 +298,10 @@ def the_statement_names_every_argument(exercise: Exercise, seeds: Sequence[int])
         )
     if not exercise.statement.startswith("Return "):
         yield "the statement does not begin with what to return", 'begin the docstring with "Return ..."'
+
+
+def _named(mistake: Mistake) -> str:
+    return repr(mistake.id) + (f", written in way {mistake.way + 1}," if mistake.way else "")
 
 
 def _distance(exercise: Exercise, formula: Callable[..., Any], drawn: Drawn) -> float:

@@ -39,7 +39,7 @@ class Target:
         rng = generator(seed, exercise.id, drawn.name, "samples") if hidden else None
         self._samples = samples(len(names), rng, keep_grid=exercise.kind == "mask") if names else None
         self._relabelled: dict[str, Array] = {}
-        self._mistakes: dict[str, Answer] = {}
+        self._mistakes: dict[tuple[str, int], Answer] = {}
         self._mistakes_relabelled: dict[tuple[str, str], Array | None] = {}
         self.pictures: dict[tuple[int, float], Any] = {}  # kept here by the room that draws
 
@@ -99,9 +99,10 @@ class Target:
 
     def mistake(self, known: Mistake) -> Answer:
         """What a known mistake answers at the samples."""
-        if known.id not in self._mistakes:
-            self._mistakes[known.id] = self._at_samples(known.formula, f"mistake {known.id!r}")
-        return self._mistakes[known.id]
+        key = known.id, known.way
+        if key not in self._mistakes:
+            self._mistakes[key] = self._at_samples(known.formula, f"mistake {known.id!r}")
+        return self._mistakes[key]
 
     def mistake_relabelled(self, known: Mistake, symmetry: Symmetry) -> Array | None:
         """The values at the samples of that f for which f∘σ is the mistake; None where it raises."""
@@ -239,7 +240,7 @@ def targets(exercise: Exercise, seed: int | str | bytes, *, hidden: bool = False
     """The targets of all data sets of an exercise under one seed."""
     if hidden:
         return _targets(exercise, seed, hidden)
-    known = (len(exercise.data_sets), len(exercise.mistakes), exercise.tolerance)
+    known = (len(exercise.data_sets), len(exercise.mistakes) + len(exercise.ways), exercise.tolerance)
     return _kept(exercise, seed, known)
 
 

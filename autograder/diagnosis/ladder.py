@@ -176,8 +176,9 @@ def _exact(expected: Answer) -> bool:
 
 
 def recognise(findings: Sequence[Finding]) -> Recognised | None:
-    """The known mistake whose answers are met on every data set."""
-    mistakes = findings[0].target.exercise.mistakes
+    """The known mistake, in any of the ways it is written, whose answers are met on every data set."""
+    exercise = findings[0].target.exercise
+    mistakes = itertools.chain(exercise.mistakes, exercise.ways)
     return next((Recognised(m) for m in mistakes if all(_made(finding, m) for finding in findings)), None)
 
 

@@ -140,6 +140,23 @@ def test_a_mistake_needs_a_hint_a_new_name_the_same_arguments_and_less_than_full
         value.mistake("arguments")(other_arguments)
 
 
+def test_another_way_of_writing_a_mistake_has_its_hint_and_its_credit():
+    """The mistakes stay a list of different ones; a way without its mistake, or with other arguments, is refused."""
+    sweep = linear_sweep()
+
+    @sweep.also("backwards")
+    def _(u, w, curve, direction, d):
+        return sweep.reference(u, w, curve, -np.asarray(direction), d + 1)
+
+    (known,), (way,) = sweep.mistakes, sweep.ways
+    assert (way.id, way.hint, way.credit, way.way) == (known.id, known.hint, known.credit, 1)
+    assert way.formula is not known.formula
+    with pytest.raises(ExerciseError, match="no mistake 'forwards' yet"):
+        sweep.also("forwards")(known.formula)
+    with pytest.raises(ExerciseError, match="must take"):
+        sweep.also("backwards")(lambda u, w: u)
+
+
 @pytest.mark.parametrize(
     ("drawn", "message"), [({"b": 1}, r"missing \['a'\], unknown \['b'\]"), (3, "must return a dict of arguments; got int")]
 )

@@ -177,9 +177,16 @@ def _(u, w, c0, c1, d0, d1):
 @coons.mistake("loop_orientation", credit=0.5)
 def _(u, w, c0, c1, d0, d1):
     """You read the four curves head to tail, once round the patch, so that c1 and d0 run backwards. Here all four run with
-    growing u or w. Compare your edge w = 1 with c1: same curve, and which end comes first?"""
+    growing u or w. Compare your edge w = 1 with c1: at which end does yours begin?"""
     across_w, across_u, flat = _parts(u, w, c0, lambda t: c1(1 - np.asarray(t)), lambda t: d0(1 - np.asarray(t)), d1)
     return across_w + across_u - flat
+
+
+@coons.also("loop_orientation")  # with the right corners in the correction
+def _(u, w, c0, c1, d0, d1):
+    _, _, flat = _parts(u, w, c0, c1, d0, d1)
+    s, t = column(u), column(w)
+    return (1 - t) * c0(u) + t * c1(1 - np.asarray(u)) + (1 - s) * d0(1 - np.asarray(w)) + s * d1(w) - flat
 
 
 @coons.mistake("one_ruled", credit=0.25)

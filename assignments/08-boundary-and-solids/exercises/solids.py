@@ -183,6 +183,11 @@ def _(P):
     return np.stack([*P, P[:, 0], P[:, -1]])
 
 
+@hyperpatch_faces.also("all_slices_u")  # and two of the last axis
+def _(P):
+    return np.stack([*P, P[:, :, 0], P[:, :, -1]])
+
+
 @hyperpatch_faces.mistake("transposed", credit=0.5)
 def _(P):
     """You have the right six faces in the right order, each with its two parameters exchanged: rows and columns of your nets have

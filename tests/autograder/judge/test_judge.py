@@ -32,6 +32,15 @@ class TestMistakes:
         assert known.hint in verdict.part("look")
         assert verdict.fraction == (0.5 if known.credit is None else known.credit)
 
+    def test_another_way_of_writing_it_is_the_same_mistake(self, tube):
+        known = tube.mistakes[0]
+        before = judge(tube, lambda u, w, *rest: known.formula(u, w, *rest) * [1, 1, 3], seed=SECRET)
+        tube.also(known.id)(lambda u, w, r, h: known.formula(u, w, r, h) * [1, 1, 3])
+        after = judge(tube, lambda u, w, *rest: known.formula(u, w, *rest) * [1, 1, 3], seed=SECRET)
+        assert before.mistake is None
+        assert (after.mistake, after.tier) == (known.id, "mistake")
+        assert known.hint in after.message
+
     def test_data_that_cannot_see_it_are_named(self, tube):
         verdict = judge(tube, tube.mistakes[1].formula)
         assert "Right on the data set unit, which cannot see this mistake" in verdict.part("right")
