@@ -122,4 +122,4 @@ def samples(n: int, rng: np.random.Generator | None = None, *, keep_grid: bool =
 
 def _without_inner(count: int, dropped: int) -> list[int]:
     """Indices 0 .. count-1 without ``dropped`` of the inner ones, ends kept."""
-    return [i for i in range(count) if not 0 < i <= min(dropped, count - 2)]
+    return [0, *range(min(dropped, count - 2) + 1, count)]

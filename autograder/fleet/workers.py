@@ -8,6 +8,7 @@ and those it is told to keep, ignores the keyboard, and ends with its parent.
 from __future__ import annotations
 
 import contextlib
+import gc
 import logging
 import os
 import signal
@@ -156,6 +157,7 @@ def _worker(crew: Crew[Any, Any], number: int, line: Connection[Any, Any], paren
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
         _let_go({0, 1, 2, line.fileno(), *crew._keep})
+        gc.freeze()  # what the parent has loaded is no garbage: looking for some would take long and copy its pages
         while True:
             line.send(crew._work(line.recv(), number))
     except (EOFError, OSError):

@@ -33,6 +33,7 @@ SHOWING = ("psutil", "autograder")  # plotly asks the one how it was started; th
 
 def main(arguments: str) -> None:
     """Prepare, say that it is ready, then clone a child for each request. ``arguments`` is JSON from the launcher."""
+    gc.disable()  # until all is loaded: nearly nothing of it is garbage, and what little there is may stay
     settings = json.loads(arguments)
     if sys.version != settings["version"]:
         raise RuntimeError(
@@ -61,8 +62,8 @@ class Zygote:
         child.set_environment(confine.SCRATCH)
         if os.path.isdir("/proc/self/task") and len(os.listdir("/proc/self/task")) > 1:
             raise RuntimeError("a thread runs in the zygote; clone would leave its locks held for ever")
-        gc.collect()
         gc.freeze()  # objects from before the clone are not touched by the child's collector, so their pages stay shared
+        gc.enable()
 
     def serve(self) -> None:
         """Until the trusted side goes away."""
