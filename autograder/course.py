@@ -27,7 +27,7 @@ import re
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from traitlets.config.loader import (
     Config,
@@ -42,13 +42,16 @@ from autograder import catalogue
 from autograder.catalogue import Catalogue
 from autograder.errors import CourseError
 from autograder.exercise import Exercise
-from autograder.gradebook import AssignmentRow, Gradebook, Penalty
+from autograder.gradebook import AssignmentRow, Penalty
 from autograder.notebook import apart, secret, submission
 from autograder.notebook.apart import Script
 from autograder.notebook.master import Master
 from autograder.notebook.rebuild import notification
 from autograder.notebook.session import Opener, Packages
 from autograder.sandbox import kernel
+
+if TYPE_CHECKING:
+    from autograder.gradebook import Gradebook
 
 CONFIG = "nbgrader_config"
 ENGINES = ("ipython", "jupyter")
@@ -110,6 +113,8 @@ class Course:
 
     def gradebook(self) -> Gradebook:
         """Open the gradebook."""
+        from autograder.gradebook import Gradebook
+
         return Gradebook(self.database)
 
     def path(self, step: str, student: str, assignment: str) -> Path:
@@ -144,6 +149,12 @@ class Course:
         """The released notebook of the instructor, else the source."""
         released = self.path("release", ".", assignment) / f"{notebook}.ipynb"
         return released if released.is_file() else self.path("source", ".", assignment) / f"{notebook}.ipynb"
+
+    def likely_masters(self, assignment: str) -> list[Master]:
+        """What the instructor's files alone tell of the notebooks, for who cannot wait for the gradebook."""
+        folders = [self.path(step, ".", assignment) for step in ("source", "release")]
+        names = sorted({path.stem for folder in folders for path in folder.glob("*.ipynb")})
+        return [Master(name, {}).beside(self.instructor_file(assignment, name)) for name in names]
 
     def masters(self, of: AssignmentRow) -> dict[str, Master]:
         """The instructor's copies of the notebooks, with what the released files say beside them."""

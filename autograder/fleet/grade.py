@@ -24,15 +24,15 @@ from typing import TYPE_CHECKING, Any
 from autograder.course import Course
 from autograder.errors import CourseError, SubmissionError
 from autograder.exercise import Exercise
-from autograder.fleet import capacity, publish
+from autograder.fleet import preparing, publish
 from autograder.fleet.journal import Entry, Journal, only_grader
 from autograder.fleet.one import Outcome, Plan, Rules
 from autograder.fleet.result import GradeReport, StudentReport
 from autograder.fleet.task import Landed, Task, judged
 from autograder.fleet.workers import Crew, Lost
-from autograder.gradebook import Gradebook, NotebookMarks, Record, Standing
+from autograder.gradebook import NotebookMarks, Record, Standing
 from autograder.notebook.secret import hidden_seed
-from autograder.notebook.session import opened
+from autograder.notebook.session import Begun, opened
 from autograder.notebook.submission import PLAIN_ID, Submission, read_file, read_folder
 from autograder.notebook.timestamps import FILE, handed_in
 
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from distributed import Client
 
     from autograder.fleet.cluster import Cluster
+    from autograder.gradebook import Gradebook
 
 log = logging.getLogger(__name__)
 BATCH = 50
@@ -89,9 +90,13 @@ def grade(
         If this machine does not give the level.
     """
     started = time.monotonic()
-    with only_grader(course.room), course.gradebook() as book:
-        run = _Run(course, book, assignment, level or course.level, progress)
+    level = level or course.level
+    with only_grader(course.room), contextlib.ExitStack() as stack:
         chosen = _chosen(course, assignment, students)
+        begun = None
+        if scheduler is None and (force or chosen.keys() - course.graded(assignment).keys()):
+            begun = stack.enter_context(preparing.begun(course, assignment, level))
+        run = _Run(course, stack.enter_context(course.gradebook()), assignment, level, progress, begun)
         if scheduler is None:
             run.grade(chosen, workers or os.cpu_count() or 1, force=force)
         else:
@@ -115,8 +120,12 @@ def _chosen(course: Course, assignment: str, students: Iterable[str] | None) -> 
 class _Run:
     """One grading run over one assignment."""
 
-    def __init__(self, course: Course, book: Gradebook, assignment: str, level: str | None, progress: Progress | None) -> None:
+    def __init__(
+        self, course: Course, book: Gradebook, assignment: str, level: str | None, progress: Progress | None,
+        begun: Begun | None = None,
+    ) -> None:  # fmt: skip
         self.course, self.book, self.required, self.progress = course, book, level, progress
+        self.begun = begun
         self.level = level or ""  # of the sandbox, once one runs
         self.row = book.assignment(assignment)
         self.masters = course.masters(self.row)
@@ -155,7 +164,7 @@ class _Run:
             while tasks:
                 with self._plan() as plan:
                     if isinstance(workers, int):
-                        plan, workers = _fitted(plan, min(workers, len(tasks)))
+                        plan, workers = preparing.fitted(plan, min(workers, len(tasks)))
                     tasks = self._work(plan, tasks, workers)
 
     def _work(self, plan: Plan, todo: list[Task], workers: int | Client) -> list[Task]:
@@ -324,12 +333,12 @@ class _Run:
     @contextlib.contextmanager
     def _plan(self) -> Iterator[Plan]:
         course, exercises = self.course, self._posed()
-        drawing = threading.Thread(target=_load_drawing, daemon=True)
+        drawing = threading.Thread(target=preparing.load_drawing, daemon=True)
         if exercises:
             drawing.start()
         draws = any(master.draws for master in self.masters.values())
         with opened(
-            exercises.values(), course.packages, self.required, course.timeout, course.withhold, draws=draws
+            exercises.values(), course.packages, self.required, course.timeout, course.withhold, draws=draws, begun=self.begun
         ) as open_session:
             self.level = open_session.level
             if exercises:
@@ -364,24 +373,6 @@ class _Run:
         titles = {exercise.id: exercise.title for exercise in self._posed().values()}
         course = self.course.id or self.course.folder.name
         return GradeReport(course, self.row.name, self.level, tuple(students), seconds, self.available, titles, self.shared)
-
-
-def _fitted(plan: Plan, workers: int) -> tuple[Plan, int]:
-    """The same with limits and workers that fit this machine's memory together."""
-    session = plan.open_session
-    processes = 2 if any(script.apart for script in plan.scripts.values()) else 1
-    fit = capacity.fit(workers, session.bounds.memory, capacity.available(), processes=processes)
-    if fit.note:
-        log.warning("%s", fit.note)
-    bounds = dataclasses.replace(session.bounds, memory=fit.memory)
-    return dataclasses.replace(plan, open_session=dataclasses.replace(session, bounds=bounds)), fit.workers
-
-
-def _load_drawing() -> None:
-    """Load what judging and cards take while the sandbox starts: forked workers then share it, instead of each loading it."""
-    importlib.import_module("scipy.spatial")
-    go: Any = importlib.import_module("plotly.graph_objects")
-    go.Figure([go.Surface(), go.Scatter3d(), go.Scatter()], {"scene": {}}).to_dict()
 
 
 def _refreshed(report: StudentReport, marked: Mapping[tuple[str, str], tuple[float | None, bool]]) -> StudentReport:

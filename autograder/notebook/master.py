@@ -99,6 +99,12 @@ class Master:
         return tuple(cell for cell in self.cells.values() if cell.grade)
 
     @property
+    def checks(self) -> list[str]:
+        """The names in cells of the instructor's file that are exactly ``check(name)``, graded or not."""
+        sources = (source for cell_type, source in self.by_text if cell_type == "code" and source.startswith("check("))
+        return [name for source in sources if (name := checked_name(source)) is not None]
+
+    @property
     def digest(self) -> str:
         """Changes when a cell of the instructor changes."""
         rows = [[getattr(cell, name) for name in MasterCell.__dataclass_fields__] for cell in self.cells.values()]

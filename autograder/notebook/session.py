@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal
 
@@ -18,7 +19,7 @@ ENVIRONMENT = {"NBGRADER_EXECUTION": "autograde"}
 BASIC = ("numpy", "plotly")
 
 
-def needs(exercises: Iterable[Exercise], packages: Packages, *, draws: bool = True) -> Policy:
+def needs(exercises: Iterable[Exercise], packages: Packages, withhold: tuple[str, ...] = (), *, draws: bool = True) -> Policy:
     """What the sandbox offers: numpy, plotly and what exercises and course allow; all that is installed without exercises.
 
     Whether notebooks that pose no exercise draw with plotly decides only when it is loaded: once for all, or by who imports it.
@@ -27,7 +28,7 @@ def needs(exercises: Iterable[Exercise], packages: Packages, *, draws: bool = Tr
     if packages == "all" or not (posed or packages):
         return Policy(packages="all") if posed or draws else Policy(packages="all", preload=())
     allowed = [package for exercise in posed for package in exercise.allow]
-    return Policy(packages=tuple(dict.fromkeys([*BASIC, *packages, *allowed])))
+    return Policy(packages=tuple(dict.fromkeys([*BASIC, *packages, *allowed, *withhold])))
 
 
 def limits(timeout: float | None, *, exercises: bool) -> Limits:
@@ -86,10 +87,12 @@ def opened(
     withhold: Iterable[str] = (),
     *,
     draws: bool = True,
+    begun: Begun | None = None,
 ) -> Iterator[Opener]:
     """Start the sandbox of an assignment; yields what opens a session in it, given the files that the notebook finds.
 
-    ``withhold`` names modules that test cells may import and learners may not; ``draws`` is as in :func:`needs`.
+    ``withhold`` names modules that test cells may import and learners may not; ``draws`` is as in :func:`needs`; ``begun`` is
+    a sandbox that starts already, and is taken if it is the right one.
 
     ``level`` None requires A or, where a machine gives no namespaces to a notebook of its own, A-. Which one it is stands in
     every report. Sessions may be opened from any thread.
@@ -99,13 +102,41 @@ def opened(
     IsolationError
         If this machine does not give the level.
     """
-    posed = list(exercises)
-    withheld = tuple(withhold)
-    bounds, policy = limits(timeout, exercises=bool(posed)), needs(posed, packages, draws=draws)
-    if withheld and policy.packages != "all":
-        policy = dataclasses.replace(policy, packages=(*policy.packages, *withheld))
-    with _sandbox(policy, level) as box:
-        yield Opener(box, bounds, box.level, withheld)
+    posed, withheld = list(exercises), tuple(withhold)
+    policy = needs(posed, packages, withheld, draws=draws)
+    ready = begun.taken(policy, level) if begun is not None else None
+    with ready or _sandbox(policy, level) as box:
+        yield Opener(box, limits(timeout, exercises=bool(posed)), box.level, withheld)
+
+
+class Begun:
+    """A sandbox whose start nobody waits for: it is likely the one that will be needed, and the grader reads on meanwhile."""
+
+    def __init__(self, policy: Policy, level: str | None) -> None:
+        self._wanted = policy, level
+        self._box: Sandbox | None = None
+        self._thread = threading.Thread(target=self._start, name="sandbox, begun", daemon=True)
+        self._thread.start()
+
+    def __enter__(self) -> Begun:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self._thread.join()
+        if self._box is not None:
+            self._box.close()
+
+    def taken(self, policy: Policy, level: str | None) -> Sandbox | None:
+        """The sandbox, which is the taker's from now on; None if another one is wanted, or it could not be started."""
+        self._thread.join()
+        if (policy, level) != self._wanted:
+            return None
+        box, self._box = self._box, None
+        return box
+
+    def _start(self) -> None:
+        with contextlib.suppress(Exception):  # whoever needs one starts it again, and tells why that fails
+            self._box = _sandbox(*self._wanted)
 
 
 def _sandbox(policy: Policy, level: str | None) -> Sandbox:

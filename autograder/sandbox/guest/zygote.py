@@ -43,6 +43,7 @@ def main(arguments: str) -> None:
     zygote = Zygote(control, settings["level"], settings["preload"])
     control.send(json.dumps({"ready": True}).encode())
     zygote.serve()
+    os._exit(0)  # there is nothing to put in order: what runs in here ends with this process
 
 
 class Zygote:

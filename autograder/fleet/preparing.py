@@ -1,0 +1,41 @@
+"""What a grading run does before its first submission: a sandbox early, limits that fit the machine, drawing loaded."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import logging
+from typing import Any
+
+from autograder.course import Course
+from autograder.fleet import capacity
+from autograder.fleet.one import Plan
+from autograder.notebook.session import Begun, needs
+
+log = logging.getLogger(__name__)
+
+
+def begun(course: Course, assignment: str, level: str | None) -> Begun:
+    """The sandbox starts while the gradebook is loaded and read, on the word of the instructor's files."""
+    masters = course.likely_masters(assignment)
+    posed = [found for master in masters for name in master.checks if (found := course.exercise(name)) is not None]
+    policy = needs(posed, course.packages, course.withhold, draws=any(master.draws for master in masters))
+    return Begun(policy, level)
+
+
+def fitted(plan: Plan, workers: int) -> tuple[Plan, int]:
+    """The same with limits and workers that fit this machine's memory together."""
+    session = plan.open_session
+    processes = 2 if any(script.apart for script in plan.scripts.values()) else 1
+    fit = capacity.fit(workers, session.bounds.memory, capacity.available(), processes=processes)
+    if fit.note:
+        log.warning("%s", fit.note)
+    bounds = dataclasses.replace(session.bounds, memory=fit.memory)
+    return dataclasses.replace(plan, open_session=dataclasses.replace(session, bounds=bounds)), fit.workers
+
+
+def load_drawing() -> None:
+    """Load what judging and cards take while the sandbox starts: forked workers then share it, instead of each loading it."""
+    importlib.import_module("scipy.spatial")
+    go: Any = importlib.import_module("plotly.graph_objects")
+    go.Figure([go.Surface(), go.Scatter3d(), go.Scatter()], {"scene": {}}).to_dict()
