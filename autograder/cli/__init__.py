@@ -30,6 +30,7 @@ app.command()(grading.grade)
 app.command()(grading.feedback)
 app.command()(reading.similar)
 app.command()(reading.marks)
+app.command()(reading.export)
 app.command()(machine.doctor)
 
 

@@ -14,7 +14,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from autograder.cli.options import AsJson, CourseOption, console_for
+from autograder.cli.options import AsJson, CourseOption, GradingLevel, console_for
 from autograder.errors import CourseError
 
 FIRST = ("A1", "A2", "A3")
@@ -125,7 +125,7 @@ def lab(
 def demo(
     directory: Annotated[Path, typer.Option("--dir", help="Where the demo course goes.")] = Path("directrix-demo"),
     assignment: Annotated[list[str] | None, typer.Option(help="Only these assignments; may be repeated.")] = None,
-    level: Annotated[str, typer.Option(help="Isolation level to require; empty: A or A-.")] = "",
+    level: GradingLevel = "",
     every: Annotated[bool, typer.Option("--all", help="Every shipped assignment, not only the first three.")] = False,
     again: Annotated[bool, typer.Option("--again", help="Replace an earlier demo in that folder.")] = False,
     as_json: AsJson = False,

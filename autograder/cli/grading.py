@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from autograder.cli.course import grade_with_progress
-from autograder.cli.options import AsJson, CourseOption, console_for, opened
+from autograder.cli.options import AsJson, CourseOption, GradingLevel, console_for, opened
 
 
 def check(
@@ -41,8 +41,8 @@ def grade(
     force: Annotated[
         bool, typer.Option("--force/--resume", help="Grade again what is graded already; or leave it, and go on from there.")
     ] = False,
-    workers: Annotated[int, typer.Option(help="Submissions at a time; 0 means one for each processor.")] = 0,
-    level: Annotated[str, typer.Option(help="Isolation level to require; empty: as the course says, else A or A-.")] = "",
+    workers: Annotated[int, typer.Option(min=0, help="Submissions at a time; 0 means one for each processor.")] = 0,
+    level: GradingLevel = "",
     scheduler: Annotated[str, typer.Option(help="Grade on a Dask cluster: tls://host:port; empty: on this machine.")] = "",
     as_json: AsJson = False,
 ) -> None:

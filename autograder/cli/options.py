@@ -16,6 +16,20 @@ if TYPE_CHECKING:
 CourseOption = Annotated[Path, typer.Option("--course", help="The course folder.", show_default="this folder")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON document, and what is meant for people on stderr.")]
 
+
+def _offered(level: str) -> str:
+    """The level, where notebooks are run at it: said at once, also where there is nothing to run."""
+    if level not in ("", "A", "A-"):
+        raise typer.BadParameter(
+            f"notebooks are run at level A or A- only; got {level!r}. `directrix doctor` says which you have"
+        )
+    return level
+
+
+GradingLevel = Annotated[
+    str, typer.Option("--level", callback=_offered, help="Isolation level to require; empty: as the course says, else A or A-.")
+]
+
 WIDTH = 150
 SIGNS = ("nbgrader_config.py", "nbgrader_config.json", "gradebook.db", "submitted", "source")
 

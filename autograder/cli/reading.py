@@ -1,14 +1,19 @@
-"""``directrix similar`` and ``marks``: they read a course and change nothing in it."""
+"""``directrix similar``, ``marks`` and ``export``: they read a course and change nothing in it."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from autograder.cli.options import AsJson, CourseOption, console_for, opened
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from autograder.gradebook.export import Sheet
 
 
 def similar(
@@ -68,12 +73,46 @@ def marks(
         made.add_row(*(Text(plain(f"{cell:g}" if isinstance(cell, float) else str(cell))) for cell in cells))
     console.print(made)
     if csv is not None:
-        csv.write_text(export.as_csv(sheet), "utf-8", newline="")
-        console.print(f"{csv}: {len(rows)} students, {sheet.available:g} points", highlight=False, markup=False)
+        _write(sheet, csv, console)
     if as_json:
-        names = [str(name) for name in header]
-        print(
-            json.dumps(
-                {"assignment": assignment, "rows": [dict(zip(names, line, strict=True)) for line in rows]}, allow_nan=False
-            )
-        )
+        print(_rows(sheet))
+
+
+def export(
+    assignment: Annotated[str, typer.Argument(help="A graded assignment, for example A1.")],
+    course: CourseOption = Path(),
+    csv: Annotated[
+        Path | None, typer.Option(help="The file to write.", show_default="marks-ASSIGNMENT.csv in this folder")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write the marks of an assignment as a CSV file that a learning platform or a spreadsheet takes.
+
+    One row a student: id, name, every part, late penalty, total, points available, and how many parts wait for a person.
+
+    Example: directrix export A1 --csv marks-A1.csv
+    """
+    from autograder.gradebook import export as exporting
+
+    with opened(course).gradebook() as book:
+        sheet = exporting.sheet(book, assignment)
+    _write(sheet, csv if csv is not None else Path(f"marks-{assignment}.csv"), console_for(as_json))
+    if as_json:
+        print(_rows(sheet))
+
+
+def _write(sheet: Sheet, path: Path, console: Console) -> None:
+    from autograder.gradebook import export as exporting
+
+    path.write_text(exporting.as_csv(sheet), "utf-8", newline="")
+    console.print(f"{path}: {len(sheet.rows)} students, {sheet.available:g} points", highlight=False, markup=False)
+
+
+def _rows(sheet: Sheet) -> str:
+    from autograder.gradebook import export as exporting
+
+    header, *rows = exporting.table(sheet)
+    names = [str(name) for name in header]
+    return json.dumps(
+        {"assignment": sheet.assignment, "rows": [dict(zip(names, line, strict=True)) for line in rows]}, allow_nan=False
+    )

@@ -12,7 +12,7 @@ import pytest
 from autograder import authoring, catalogue
 from autograder.notebook import source
 
-VERBS = ["demo", "new", "release", "lab", "check", "collect", "grade", "feedback", "similar", "marks", "doctor"]
+VERBS = ["demo", "new", "release", "lab", "check", "collect", "grade", "feedback", "similar", "marks", "export", "doctor"]
 
 
 def directrix(*arguments, cwd):
@@ -42,6 +42,9 @@ def test_every_verb_has_help_with_an_example(verb, tmp_path):
         (["grade"], 2, "Missing argument"),
         (["no-such-verb"], 2, "No such command"),
         (["grade", "A1"], 1, "nbgrader_config.py"),
+        (["grade", "A1", "--level", "B"], 2, "notebooks are run at level A or A- only"),
+        (["grade", "A1", "--workers", "-1"], 2, "greater than or equal to 0"),
+        (["export", "A1"], 1, "nbgrader_config.py"),
         (["feedback", "A1"], 1, "nbgrader_config.py"),
         (["release", "A1"], 1, "is not a course"),
         (["author", "check", "nowhere"], 1, "no such folder: nowhere"),

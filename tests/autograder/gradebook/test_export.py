@@ -73,5 +73,8 @@ def test_the_command_writes_what_the_gradebook_says(ordinary):
     assert {name: float(written[name]) for name in ("one/test_square", "one/why", "penalty", "total")} == {
         name: mine[name] for name in ("one/test_square", "one/why", "penalty", "total")
     }
+    again = [sys.executable, "-m", "autograder", "export", "ps1"]
+    subprocess.run(again, cwd=ordinary.folder, check=True, capture_output=True, timeout=120)
+    assert (ordinary.folder / "marks-ps1.csv").read_bytes() == (ordinary.folder / "marks.csv").read_bytes()
     assert "\x1b" not in ran.stderr
     assert "[bold]A[/bold]" in ran.stderr.replace("\n", "")
