@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, get_args
 
 Outcome = Literal["passed", "partial", "failed", "not run", "could not judge"]
@@ -95,10 +95,6 @@ class Verdict:
     def points(self, available: float) -> float:
         """The points this verdict is worth, as a plain float clamped to [0, available]."""
         return float(min(max(round(self.fraction * available, 6), 0.0), available))
-
-    def without_figure(self) -> Verdict:
-        """The same verdict without its sampled surfaces, for logs and tables."""
-        return replace(self, figure=None)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain lists, dicts, strings and numbers."""

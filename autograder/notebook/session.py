@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal
 
 from autograder.errors import IsolationError
@@ -14,7 +14,6 @@ from autograder.sandbox import Limits, Policy, Sandbox
 from autograder.sandbox.kernel import KernelRun, run_notebook
 
 Packages = tuple[str, ...] | Literal["all"]
-OpenSession = Callable[[Mapping[str, bytes]], contextlib.AbstractContextManager[Any]]
 ENVIRONMENT = {"NBGRADER_EXECUTION": "autograde"}
 BASIC = ("numpy", "plotly")
 

@@ -10,7 +10,6 @@ from functools import lru_cache
 
 import directrix as dx
 import numpy as np
-from scipy.spatial import cKDTree
 
 from autograder.exercise import exercise
 
@@ -56,6 +55,8 @@ def _ladder(f, g, *, sets=True, area=True, both=True, symmetries=SYMMETRIES, mot
 def _measured(f, g):
     """All that the rungs ask for, in sizes of g: distances for each relabelling; from f to g and from g to f as sets; by how much
     the areas differ, in areas of g; what is left after each kind of motion."""
+    from scipy.spatial import cKDTree  # takes longer to load than the exercises of all assignments together
+
     F, G = f(U, W), g(U, W)
     size = np.linalg.norm(np.ptp(G.reshape(-1, 3), axis=0))
     apart = {}
