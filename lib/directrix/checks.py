@@ -159,9 +159,9 @@ def weights(name: str, value: Any, shape: tuple[int, ...]) -> Array:
         )
     if (given <= 0).any():
         where = tuple(int(i) for i in np.argwhere(given <= 0)[0])
+        rule = f"must all be greater than 0; {name}{list(where)} is" if where else "must be greater than 0; got"
         raise WeightError(
-            f"{name} must all be greater than 0; {name}{list(where)} is {given[where]:g}. A point of weight 0 or less can send "
-            "the form to infinity.",
+            f"{name} {rule} {given[where]:g}. A point of weight 0 or less can send the form to infinity.",
             name=name,
             got=float(given[where]),
         )

@@ -269,7 +269,7 @@ def test_conic_is_a_nurbs_and_refuses_weight_zero():
     """The same numbers through the other form."""
     points = [(0, 0, 0), (1, 2, 0), (3, 0.5, 1)]
     assert np.allclose(dx.Conic(*points, 0.7)(U), dx.NurbsCurve(points, [1, 0.7, 1], 3)(U), atol=1e-15)
-    refused(lambda: dx.Conic(*points, 0), dx.WeightError, "weight must all be greater than 0")
+    refused(lambda: dx.Conic(*points, 0), dx.WeightError, r"weight must be greater than 0; got 0\.")
 
 
 def test_function_curve_takes_any_vectorised_callable():
