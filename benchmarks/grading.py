@@ -3,14 +3,15 @@
     python benchmarks/grading.py [--submissions 200] [--peer 8] [--rounds 1] [--workers 1 2 4] [--course exercises]
                                  [--growth 100 1000 5000] [--dask tcp tls] [--otter] [--profile]
 
-Two courses, both made here by nbgrader's own release: ``exercises`` is A1, whose graded cells are ``check(...)``; ``ordinary``
-has cells of asserts, hidden ones among them, as any nbgrader course. All submissions differ. Every figure is that of a whole
+Three courses, made here by nbgrader's own release: ``exercises`` is A1, whose graded cells are ``check(...)``; ``alone`` has only
+A1's tasks and those cells, not the pictures and trials around them; ``ordinary`` has cells of asserts, hidden ones among them,
+as any nbgrader course. All submissions differ. Every figure is that of a whole
 process from its start to its end, children included; CPU is user and system time of the process and of all it started, peak
 memory the largest resident set of one process of it (of the trusted side: the grader's own processes, without the sandbox's).
 
 nbgrader grades one submission after the other at a constant rate, so it is given fewer of them (``--peer``) and its start-up is
 taken off its time, in its favour; ours pays for its own. Under stock nbgrader ``check`` refuses to judge, so in the
-course of exercises nbgrader only executes the notebooks. In the ordinary course it grades, and the tables of both are compared.
+courses of exercises nbgrader only executes the notebooks. In the ordinary course it grades, and the tables of both are compared.
 The bare sandbox runs the same cells in the same kind of process, as many at a time, and reads, judges, writes nothing.
 Times depend on the machine and on who else uses it; the ratios are what is meant to be read.
 More than 400 lines, for a row is to be read beside the ones that it is compared with, all made in the same way.
@@ -65,9 +66,18 @@ class Figures:
 # ---- the courses
 
 
-def exercises(folder: Path, submissions: int) -> str:
-    """A1 with that many different well-behaved submissions: right, mistaken, partial, in many styles."""
+def exercises(folder: Path, submissions: int, *, alone: bool = False) -> str:
+    """A1 with that many different well-behaved submissions: right, mistaken, partial, in many styles.
+
+    ``alone``: its set-up, task and exercise cells only, without the pictures and trials between them.
+    """
     (made,) = authoring.new_course(folder, ("A1",))
+    if alone:
+        source = folder / "source" / "A1" / f"{made.slug}.ipynb"
+        whole = json.loads(source.read_text("utf-8"))
+        code = [cell for cell in whole["cells"] if cell["cell_type"] == "code"]
+        whole["cells"] = [code[0], *(cell for cell in code[1:] if "nbgrader" in cell["metadata"])]
+        source.write_text(json.dumps(whole), "utf-8")
     released = authoring.release(folder, "A1") / f"{made.slug}.ipynb"
     wanted = [m for m in demo.cohort("A1") if m.kind in ("right", "mistake", "partial")]
     for number in range(submissions):
@@ -135,7 +145,7 @@ def _cell(source: str, name: str, **flags: Any) -> dict[str, Any]:
     return cell
 
 
-COURSES = {"exercises": exercises, "ordinary": ordinary}
+COURSES = {"exercises": exercises, "alone": functools.partial(exercises, alone=True), "ordinary": ordinary}
 
 
 # ---- measuring
