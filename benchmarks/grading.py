@@ -3,15 +3,15 @@
     python benchmarks/grading.py [--submissions 200] [--peer 8] [--rounds 1] [--workers 1 2 4] [--course exercises]
                                  [--growth 100 1000 5000] [--dask tcp tls] [--otter] [--profile]
 
-Three courses, made here by nbgrader's own release: ``exercises`` is A1, whose graded cells are ``check(...)``; ``alone`` has only
-A1's tasks and those cells, not the pictures and trials around them; ``ordinary`` has cells of asserts, hidden ones among them,
-as any nbgrader course. All submissions differ. Every figure is that of a whole
-process from its start to its end, children included; CPU is user and system time of the process and of all it started, peak
-memory the largest resident set of one process of it (of the trusted side: the grader's own processes, without the sandbox's).
+Three courses, made here by nbgrader's own release: ``exercises`` is A1, whose graded cells are ``check(...)``; ``alone`` has
+only A1's tasks and those cells, not the pictures and trials around them; ``ordinary`` has cells of asserts, hidden ones among
+them, as any nbgrader course. All submissions differ. Every figure is that of a whole process from its start to its end, with
+children; CPU is user and system time of the process and of all it started, peak memory the largest resident set of one process
+of it (of the trusted side: the grader's own processes, without the sandbox's).
 
 nbgrader grades one submission after the other at a constant rate, so it is given fewer of them (``--peer``) and its start-up is
-taken off its time, in its favour; ours pays for its own. Under stock nbgrader ``check`` refuses to judge, so in the
-courses of exercises nbgrader only executes the notebooks. In the ordinary course it grades, and the tables of both are compared.
+taken off its time, in its favour; ours pays for its own. Under stock nbgrader ``check`` refuses to judge, so in courses of
+exercises nbgrader only executes the notebooks. In the ordinary course it grades, and the tables of both are compared.
 The bare sandbox runs the same cells in the same kind of process, as many at a time, and reads, judges, writes nothing.
 Times depend on the machine and on who else uses it; the ratios are what is meant to be read.
 More than 400 lines, for a row is to be read beside the ones that it is compared with, all made in the same way.
