@@ -125,25 +125,31 @@ class Course:
 
     def submissions(self, assignment: str) -> dict[str, Path]:
         """Folders handed in for an assignment, by student, in order."""
-        return self._folders("submitted", assignment)
+        return {student: self.path("submitted", student, assignment) for student in self.students("submitted", assignment)}
 
     def graded(self, assignment: str) -> dict[str, Path]:
         """Folders of graded submissions of an assignment, by student, in order."""
-        return self._folders("autograded", assignment)
+        return {student: self.path("autograded", student, assignment) for student in self.students("autograded", assignment)}
 
-    def _folders(self, step: str, assignment: str) -> dict[str, Path]:
+    def students(self, step: str, assignment: str) -> list[str]:
+        """Who has a folder of a step (``submitted``, ...) of an assignment, in order."""
         marker = "\0"
         pattern = str(self.path(step, marker, assignment).relative_to(self.root))
         before, _, after = pattern.partition(marker)
-        excluded = str(self.get("CourseDirectory", "student_id_exclude", "")).split(",")
-        found = {}
-        head, slash, rest = after.partition("/")  # what lies below a link to nowhere cannot be listed, and the link can
-        paths = (path / rest if slash else path for path in self.root.glob(f"{_literal(before)}*{_literal(head)}"))
-        for path in sorted(path for path in paths if os.path.lexists(path) or _dangling(path.parent)):
-            student = str(path.relative_to(self.root))[len(before) : len(str(path.relative_to(self.root))) - len(after)]
-            if student and "/" not in student and not student.startswith(".") and student not in excluded:
-                found[student] = path
-        return found
+        above, _, begin = before.rpartition("/")
+        end, _, rest = after.partition("/")
+        excluded = ["", *str(self.get("CourseDirectory", "student_id_exclude", "")).split(",")]
+        folder, names, found = self.root / above, [], []
+        with contextlib.suppress(OSError):  # there is no such folder
+            names = os.listdir(folder)
+        for name in names:
+            student = name[len(begin) : len(name) - len(end)]
+            if name != f"{begin}{student}{end}" or student in excluded or student.startswith("."):
+                continue
+            path = folder / name / rest
+            if os.path.lexists(path) or _dangling(path.parent):  # below a link to nowhere nothing is listed, and the link is
+                found.append(student)
+        return sorted(found)
 
     def instructor_file(self, assignment: str, notebook: str) -> Path:
         """The released notebook of the instructor, else the source."""
@@ -383,11 +389,6 @@ def _resolved(value: Any) -> Any:
             return ast.literal_eval(str(value))
         return str(value)
     return value
-
-
-def _literal(text: str) -> str:
-    """A path as a glob that matches only itself."""
-    return "".join(f"[{letter}]" if letter in "*?[" else letter for letter in text)
 
 
 def _dangling(path: Path) -> bool:

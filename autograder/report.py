@@ -2,21 +2,24 @@
 
 data = report.summary(graded)       # numbers and names, for programs
 console.print(report.table(graded)) # the same for people
+report.show(graded, console)        # the same without holding all of a large class in memory
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from rich.console import Group
+from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from autograder.fleet import CellReport, GradeReport, StudentReport
 
+PAGE = 100  # students in a table: the next has its heading again
 MOST_MISTAKES = 3
 WIDEST_NAME = 22
 STATUS = {
@@ -44,28 +47,46 @@ class Part:
     mistakes: tuple[tuple[str, int], ...] = ()
 
 
+@dataclass
+class _Tally:
+    """What is counted for a part while the submissions go by."""
+
+    first: CellReport
+    cells: int = 0
+    marked: int = 0
+    points: float = 0.0
+    full: int = 0
+    none: int = 0
+    mistakes: Counter[str] = field(default_factory=Counter)
+
+    def count(self, cell: CellReport) -> None:
+        self.cells += 1
+        if cell.mistake:
+            self.mistakes[cell.mistake] += 1
+        if cell.points is not None:
+            self.marked += 1
+            self.points += cell.points
+            self.full += cell.points >= self.first.available
+            self.none += cell.points <= 0 < self.first.available
+
+    def part(self, graded: GradeReport) -> Part:
+        first = self.first
+        return Part(
+            first.notebook, first.name, graded.titles.get(first.exercise or "", "") or first.name, first.available,
+            self.full, self.marked - self.full - self.none, self.none, self.cells - self.marked,
+            self.points / (self.marked * first.available) if self.marked and first.available else None,
+            tuple(sorted(self.mistakes.items(), key=lambda pair: (-pair[1], pair[0]))),
+        )  # fmt: skip
+
+
 def parts(graded: GradeReport) -> tuple[Part, ...]:
     """The graded cells of an assignment in their order, over all submissions that could be read."""
-    cells: dict[tuple[str, str], list[CellReport]] = {}
+    found: dict[tuple[str, str], _Tally] = {}
     for student in graded.students:
         if student.status in ("graded", "unchanged"):
             for cell in student.cells:
-                cells.setdefault((cell.notebook, cell.name), []).append(cell)
-    return tuple(_part(found, graded) for found in cells.values())
-
-
-def _part(cells: list[CellReport], graded: GradeReport) -> Part:
-    first = cells[0]
-    points = [cell.points for cell in cells if cell.points is not None]
-    full = sum(value >= first.available for value in points)
-    none = sum(value <= 0 < first.available for value in points)
-    mistakes = Counter(cell.mistake for cell in cells if cell.mistake)
-    return Part(
-        first.notebook, first.name, graded.titles.get(first.exercise or "", "") or first.name, first.available,
-        full, len(points) - full - none, none, len(cells) - len(points),
-        sum(points) / (len(points) * first.available) if points and first.available else None,
-        tuple(sorted(mistakes.items(), key=lambda pair: (-pair[1], pair[0]))),
-    )  # fmt: skip
+                found.setdefault((cell.notebook, cell.name), _Tally(cell)).count(cell)
+    return tuple(tally.part(graded) for tally in found.values())
 
 
 def summary(graded: GradeReport) -> dict[str, Any]:
@@ -88,59 +109,93 @@ def summary(graded: GradeReport) -> dict[str, Any]:
 
 def table(graded: GradeReport) -> Group:
     """The class as a table of students and a table of what it found hard."""
-    shown: list[Any] = [_students(graded), _legend(graded)]
+    return Group(*_pieces(graded))
+
+
+def show(graded: GradeReport, console: Console) -> None:
+    """Print the same, piece by piece."""
+    for piece in _pieces(graded):
+        console.print(piece)
+
+
+def _pieces(graded: GradeReport) -> Iterator[RenderableType]:
+    widths = _widths(graded)
+    yield from _students(graded, widths)
+    yield _legend(widths)
     found = parts(graded)
     if any(part.mistakes or part.mean is not None for part in found):
-        shown += ["", _class(found)]
+        yield from ("", _class(found))
     for heading, lines in (("Could not be read", graded.broken), ("The grader's own failures", graded.faults)):
         if lines:
-            shown += ["", Text(heading, style="bold red"), *(Padding(Text(plain(line)), (0, 0, 0, 2)) for line in lines)]
+            yield from ("", Text(heading, style="bold red"))
+            yield from (Padding(Text(plain(line)), (0, 0, 0, 2)) for line in lines)
     if graded.shared:
-        shown += ["", Text("Tests that ran in the learners' own process, where they can be tampered with", style="bold yellow")]
-        shown += [Padding(Text(plain(f"{cell}: {why}")), (0, 0, 0, 2)) for cell, why in graded.shared.items()]
-    shown.append(Text(_footer(graded), style="dim"))
-    return Group(*shown)
+        heading = "Tests that ran in the learners' own process, where they can be tampered with"
+        yield from ("", Text(heading, style="bold yellow"))
+        yield from (Padding(Text(plain(f"{cell}: {why}")), (0, 0, 0, 2)) for cell, why in graded.shared.items())
+    yield Text(_footer(graded), style="dim")
 
 
-def _students(graded: GradeReport) -> Table:
-    title = Text(plain(f"{graded.assignment}: {len(graded.students)} submissions"))
-    made = Table(title=title, title_justify="left", header_style="bold", expand=True)
-    longest = max((len(student.student) for student in graded.students), default=0)
-    made.add_column("student", overflow="fold", min_width=min(longest, WIDEST_NAME))
-    columns = _columns(graded)
-    for number in range(1, len(columns) + 1):
-        made.add_column(str(number), justify="right", no_wrap=True)
-    made.add_column("points", justify="right", no_wrap=True)
-    made.add_column("", no_wrap=True, overflow="ellipsis", ratio=1)
+@dataclass
+class _Widths:
+    """How wide the columns of the class are, so that all its tables are alike: ids, marks by (notebook, name), points."""
+
+    student: int = 0
+    marks: dict[tuple[str, str], int] = field(default_factory=dict)
+    points: int = 0
+
+
+def _widths(graded: GradeReport) -> _Widths:
+    found = _Widths()
     for student in graded.students:
+        found.student = max(found.student, len(student.student))
+        found.points = max(found.points, len(_total(student, graded)))
+        for cell in student.cells:
+            key = cell.notebook, cell.name
+            found.marks[key] = max(found.marks.get(key, 0), len(_points(cell)[0]))
+    return found
+
+
+def _students(graded: GradeReport, widths: _Widths) -> Iterator[Table]:
+    made = _page(widths, title=plain(f"{graded.assignment}: {len(graded.students)} submissions"))
+    for student in graded.students:
+        if made.row_count == PAGE:
+            yield made
+            made = _page(widths)
         cells = {(cell.notebook, cell.name): cell for cell in student.cells}
-        made.add_row(
-            Text(plain(student.student)),
-            *(_points(cells.get(column)) for column in columns),
-            f"{student.score - student.penalty:g} / {graded.available:g}",
-            _remark(student),
-        )
+        marks = (Text(*_points(cells.get(column))) for column in widths.marks)
+        made.add_row(Text(plain(student.student)), *marks, _total(student, graded), _remark(student))
+    yield made
+
+
+def _page(widths: _Widths, title: str | None = None) -> Table:
+    made = Table(title=None if title is None else Text(title), title_justify="left", header_style="bold", expand=True)
+    made.add_column("student", overflow="fold", min_width=min(widths.student, WIDEST_NAME))
+    for number, width in enumerate(widths.marks.values(), 1):
+        made.add_column(str(number), justify="right", no_wrap=True, min_width=width)
+    made.add_column("points", justify="right", no_wrap=True, min_width=widths.points)
+    made.add_column("", no_wrap=True, overflow="ellipsis", ratio=1)
     return made
 
 
-def _columns(graded: GradeReport) -> list[tuple[str, str]]:
-    """The graded cells of the class, (notebook, name), in their order."""
-    return list(dict.fromkeys((cell.notebook, cell.name) for student in graded.students for cell in student.cells))
+def _total(student: StudentReport, graded: GradeReport) -> str:
+    return f"{student.score - student.penalty:g} / {graded.available:g}"
 
 
-def _legend(graded: GradeReport) -> Text:
+def _legend(widths: _Widths) -> Text:
     """Which cell each number at the head of the table means: numbers leave room for the marks on a narrow screen."""
-    names = (name.removeprefix("check_") for _, name in _columns(graded))
+    names = (name.removeprefix("check_") for _, name in widths.marks)
     return Text(plain("   ".join(f"{number} {name}" for number, name in enumerate(names, 1))), style="dim")
 
 
-def _points(cell: CellReport | None) -> Text:
+def _points(cell: CellReport | None) -> tuple[str, str]:
+    """The points of a cell and the style to show them in."""
     if cell is None:
-        return Text("")
+        return "", ""
     if cell.points is None:
-        return Text("?", style="yellow")
+        return "?", "yellow"
     style = "green" if cell.points >= cell.available else ("" if cell.points > 0 else "red")
-    return Text(f"{cell.points:g}{'?' if cell.look else ''}", style=style)
+    return f"{cell.points:g}{'?' if cell.look else ''}", style
 
 
 def _remark(student: StudentReport) -> Text:
@@ -170,7 +225,7 @@ def _class(found: tuple[Part, ...]) -> Table:
 
 
 def _footer(graded: GradeReport) -> str:
-    done = len(graded.graded)
+    done = sum(student.status == "graded" for student in graded.students)
     speed = f", {done / graded.seconds:.1f} a second" if done and graded.seconds > 0 else ""
     sandbox = f"; sandbox level {graded.level}" if graded.level else ""
     return f"{done} graded in {graded.seconds:.1f} s{speed}{sandbox}; '?' waits for a person"

@@ -156,7 +156,7 @@ def demo(
         console.rule(f"grading {made.name} in the sandbox")
         graded = grade_with_progress(console, course, made.name, level=level or None)
         pages = feedback.write(course, made.name)
-        console.print(report.table(graded))
+        report.show(graded, console)
         surprises = cohorts.surprises(made.name, graded)
         problems += len(surprises) + len(graded.faults)
         for surprise in surprises:

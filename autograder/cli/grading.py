@@ -59,9 +59,9 @@ def grade(
         console, opened(course), assignment, students=student or None, force=force, workers=workers or None,
         level=level or None, scheduler=scheduler or None,
     )  # fmt: skip
-    console.print(report.table(graded))
+    report.show(graded, console)
     if as_json:
-        print(json.dumps(graded.to_dict(), allow_nan=False))
+        graded.write_json(sys.stdout)
     for failure in graded.failures:
         print(f"directrix: {report.plain(failure)}", file=sys.stderr)
     if graded.failures:

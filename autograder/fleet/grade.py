@@ -17,20 +17,21 @@ import logging
 import os
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from autograder.course import Course
 from autograder.errors import CourseError, SubmissionError
 from autograder.exercise import Exercise
-from autograder.fleet import preparing, publish
+from autograder.fleet import preparing, publish, standing
 from autograder.fleet.journal import Entry, Journal, only_grader
 from autograder.fleet.one import Outcome, Plan, Rules
 from autograder.fleet.result import GradeReport, StudentReport
+from autograder.fleet.spool import Spool
 from autograder.fleet.task import Landed, Task, judged
 from autograder.fleet.workers import Crew, Lost
-from autograder.gradebook import NotebookMarks, Record, Standing
+from autograder.gradebook import NotebookMarks, Record
 from autograder.notebook.secret import hidden_seed
 from autograder.notebook.session import Begun, opened
 from autograder.notebook.submission import PLAIN_ID, Submission, read_file, read_folder
@@ -94,7 +95,7 @@ def grade(
     with only_grader(course.room), contextlib.ExitStack() as stack:
         chosen = _chosen(course, assignment, students)
         begun = None
-        if scheduler is None and (force or chosen.keys() - course.graded(assignment).keys()):
+        if scheduler is None and (force or set(chosen).difference(course.students("autograded", assignment))):
             begun = stack.enter_context(preparing.begun(course, assignment, level))
         run = _Run(course, stack.enter_context(course.gradebook()), assignment, level, progress, begun)
         if scheduler is None:
@@ -105,16 +106,16 @@ def grade(
         return run.report(time.monotonic() - started)
 
 
-def _chosen(course: Course, assignment: str, students: Iterable[str] | None) -> dict[str, Path]:
-    there = course.submissions(assignment)
+def _chosen(course: Course, assignment: str, students: Iterable[str] | None) -> list[str]:
+    there = course.students("submitted", assignment)
     if students is None:
         return there
-    wanted = list(dict.fromkeys(students))
-    unknown = [student for student in wanted if student not in there]
+    wanted = set(students)
+    unknown = sorted(wanted.difference(there))
     if unknown:
         place = course.path("submitted", "*", assignment)
         raise CourseError(f"no submission of {assignment} by {', '.join(unknown)}; looked in {place}")
-    return {student: there[student] for student in sorted(wanted)}
+    return sorted(wanted)
 
 
 class _Run:
@@ -134,33 +135,34 @@ class _Run:
         self.journal = Journal(course.room, assignment)
         self.penalty = course.penalty()
         self.version = hashlib.sha256("".join(master.digest for master in self.masters.values()).encode()).hexdigest()
-        self.done: dict[str, StudentReport] = {}
+        self.reports = Spool(course.room)  # as they come; their places by student
+        self.done: dict[str, int] = {}
         self.waiting: list[Landed] = []
         self.committed = time.monotonic()
         self.total = 0
         self.shared: dict[str, str] = {}  # test cells that share the learner's process, with the reason
 
-    def grade(self, submissions: Mapping[str, Path], workers: int | Client, *, force: bool) -> None:
+    def grade(self, students: Sequence[str], workers: int | Client, *, force: bool) -> None:
         """Grade what is new or changed, ``workers`` at a time."""
-        self.total = len(submissions)
-        for student in submissions:
+        self.total = len(students)
+        for student in students:
             publish.clear(self._place(student))
         known = set(self.book.students()) if not self.course.create_students else None
-        todo: dict[str, Path] = {}
-        for student, folder in submissions.items():
+        tasks: list[Task] = []
+        for student in students:
+            folder = self._folder(student)
             if not PLAIN_ID.fullmatch(student):
                 self._settled(StudentReport(student, "broken", broken=("the name of its folder is no student's id",)))
             elif folder.parent.name == student and folder.parent.is_symlink():
                 self._settled(StudentReport(student, "broken", broken=("the student's folder is a link to another folder",)))
             elif known is not None and student not in known:
                 self._settled(StudentReport(student, "failed", faults=("no such student in the gradebook",)))
-            elif not force and (unchanged := self._unchanged(student, folder)) is not None:
+            elif not force and (unchanged := self._unchanged(student)) is not None:
                 self._settled(unchanged)
             else:
-                todo[student] = folder
-        if todo:
+                tasks.append(Task(student))
+        if tasks:
             self.book.add_course(self.course.id)
-            tasks = [Task(student, folder) for student, folder in todo.items()]
             while tasks:
                 with self._plan() as plan:
                     if isinstance(workers, int):
@@ -207,12 +209,15 @@ class _Run:
         job = module.Job.of(self.course, self.row.name, plan, self._posed())
         return module.Cluster(workers, job, count, plan.seed, self._read, self._laid_out)  # type: ignore[no-any-return]
 
+    def _folder(self, student: str) -> Path:
+        return self.course.path("submitted", student, self.row.name)
+
     def _place(self, student: str) -> Path:
         return self.course.path("autograded", student, self.row.name)
 
     def _read(self, task: Task) -> Submission | Landed:
         try:
-            return read_folder(task.folder, ignore=self.course.ignore, bounds=self.course.bounds)
+            return read_folder(self._folder(task.student), ignore=self.course.ignore, bounds=self.course.bounds)
         except SubmissionError as error:
             return Landed(task.student, broken=str(error))
         except OSError as error:
@@ -266,7 +271,7 @@ class _Run:
             create_students=self.course.create_students,
         )  # fmt: skip
         for landed, outcome in graded:
-            report = self._with_standing(outcome.report, standings[outcome.student])
+            report = standing.noted(self.row, outcome.report, standings[outcome.student])
             fault = landed.unwritten
             try:
                 if not fault:
@@ -297,24 +302,18 @@ class _Run:
         elif place.exists():
             publish.withdraw(place)  # an earlier submission's; nbgrader removes it too when the new one fails
 
-    def _with_standing(self, report: StudentReport, standing: Standing) -> StudentReport:
-        return dataclasses.replace(
-            report, score=standing.score, penalty=standing.penalty, seconds_late=standing.seconds_late,
-            available=self.available,
-        )  # fmt: skip
-
     def _settled(self, report: StudentReport) -> None:
-        self.done[report.student] = report
+        self.done[report.student] = self.reports.add(report)
         if self.progress is not None:
             self.progress(len(self.done), self.total, report.student)
 
-    def _unchanged(self, student: str, folder: Path) -> StudentReport | None:
+    def _unchanged(self, student: str) -> StudentReport | None:
         """The earlier report of a submission that needs no grading: nbgrader's rule, and the same bytes as then."""
-        place = self.course.path("autograded", student, self.row.name)
+        place = self._place(student)
         if not place.is_dir():
             return None
         try:
-            submitted = read_folder(folder, ignore=self.course.ignore, bounds=self.course.bounds)
+            submitted = read_folder(self._folder(student), ignore=self.course.ignore, bounds=self.course.bounds)
             then, now = _timestamp(place), handed_in(submitted.files)
         except SubmissionError:
             return None
@@ -356,32 +355,17 @@ class _Run:
         checked = [cell.exercise for master in self.masters.values() for cell in master.graded if cell.exercise]
         return {name: found for name in checked if (found := self.course.exercise(name)) is not None}
 
-    @property
-    def available(self) -> float:
-        """Points of the assignment."""
-        return sum(float(cell.points or 0.0) for master in self.masters.values() for cell in master.cells.values())
-
     def report(self, seconds: float) -> GradeReport:
         """The class as it stands in the gradebook, manual marks included."""
-        marked, standings, names = self.book.read_marks(self.row), self.book.standings(self.row), self.book.students()
-        students = []
-        for student, report in sorted(self.done.items()):
-            full = _refreshed(report, marked.get(student, {}))
-            if student in standings:
-                full = self._with_standing(full, standings[student])
-            students.append(dataclasses.replace(full, available=self.available, name=names.get(student, "")))
+        found, order = Spool(self.course.room), sorted(self.done)
+        for start in range(0, len(order), BATCH):
+            reports = [self.reports[self.done[student]] for student in order[start : start + BATCH]]
+            for report in standing.current(self.book, self.row, reports):
+                found.add(report)
         titles = {exercise.id: exercise.title for exercise in self._posed().values()}
         course = self.course.id or self.course.folder.name
-        return GradeReport(course, self.row.name, self.level, tuple(students), seconds, self.available, titles, self.shared)
-
-
-def _refreshed(report: StudentReport, marked: Mapping[tuple[str, str], tuple[float | None, bool]]) -> StudentReport:
-    """The same report with the points as they stand now: an instructor may have graded since."""
-    cells = []
-    for cell in report.cells:
-        points, look = marked.get((cell.notebook, cell.name), (cell.points, cell.look))
-        cells.append(dataclasses.replace(cell, points=points, look=look))
-    return dataclasses.replace(report, cells=tuple(cells))
+        available = standing.available(self.row)
+        return GradeReport(course, self.row.name, self.level, found, seconds, available, titles, self.shared)
 
 
 def _timestamp(place: Path) -> datetime.datetime | None:

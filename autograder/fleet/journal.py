@@ -13,7 +13,7 @@ import json
 import os
 import secrets
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
@@ -47,7 +47,7 @@ class Journal:
 
     def write(self, student: str, entry: Entry) -> None:
         """Replace the entry of a student, whole or not at all."""
-        self._replace(student, json.dumps(asdict(entry), allow_nan=False))
+        self._replace(student, json.dumps({**vars(entry), "report": entry.report.to_dict()}, allow_nan=False))
 
     def begin(self, student: str) -> None:
         """Replace the entry of a student by a note that new marks are about to be committed."""

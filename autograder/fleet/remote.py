@@ -140,7 +140,7 @@ class Grading(distributed.WorkerPlugin):  # type: ignore[misc]
         return [self._grade(*sent) for sent in batch]
 
     def _grade(self, student: str, alone: bool, submitted: Submission, seeds: Mapping[tuple[str, str], bytes]) -> Landed:
-        task = Task(student, Path(), alone)
+        task = Task(student, alone)
         landed = judged(self._plan(seeds), task, submitted)
         if landed.failed and not self._opener.box.alive:  # somebody ended the sandbox: that is nothing of this submission
             self._sandbox.close()

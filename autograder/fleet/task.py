@@ -13,16 +13,15 @@ from autograder.notebook.submission import Submission
 log = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Task:
-    """A submission to be graded: nothing of it but its name has been read.
+    """A submission to be graded: nothing of it but its student's name is known.
 
     ``alone``: it is graded for the second time, when all else is done, and may take its time. ``again``: the sandbox was lost
     while it was graded.
     """
 
     student: str
-    folder: Path
     alone: bool = False
     again: bool = False
 

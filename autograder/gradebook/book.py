@@ -106,10 +106,11 @@ class Gradebook:
             for id in {DEFAULT_COURSE, course_id} - {""}:
                 self._insert(connection, course, [{"id": id}])
 
-    def students(self) -> dict[str, str]:
-        """Full names by student id, empty where the gradebook has none."""
+    def students(self, only: Sequence[str] | None = None) -> dict[str, str]:
+        """Full names by student id, empty where the gradebook has none; of all students, or only of these few hundred."""
+        query = sa.select(student.c.id, student.c.first_name, student.c.last_name)
         with self._begin() as connection:
-            rows = connection.execute(sa.select(student.c.id, student.c.first_name, student.c.last_name))
+            rows = connection.execute(query if only is None else query.where(student.c.id.in_(only)))
             return {row.id: " ".join(filter(None, (row.first_name, row.last_name))) for row in rows}
 
     def write(
@@ -143,8 +144,10 @@ class Gradebook:
                 connection.execute(_PENALTY, taken)
             return found
 
-    def read_marks(self, of: AssignmentRow) -> dict[str, dict[tuple[str, str], tuple[float | None, bool]]]:
-        """Score and need of a manual look of every graded cell, by student and (notebook, cell)."""
+    def read_marks(
+        self, of: AssignmentRow, only: Sequence[str] | None = None
+    ) -> dict[str, dict[tuple[str, str], tuple[float | None, bool]]]:
+        """Score and need of a manual look of every graded cell, by student and (notebook, cell); ``only`` of a few hundred."""
         kinds = {
             id: (nb.master.notebook, name) for nb in of.notebooks.values() for name, id in {**nb.graded, **nb.tasks}.items()
         }
@@ -157,34 +160,37 @@ class Gradebook:
             .select_from(joined)
             .where(submitted_assignment.c.assignment_id == of.id)
         )
+        if only is not None:
+            handed_in = sa.select(submitted_assignment.c.id).where(
+                submitted_assignment.c.assignment_id == of.id, submitted_assignment.c.student_id.in_(only)
+            )
+            mine = sa.select(submitted_notebook.c.id).where(submitted_notebook.c.assignment_id.in_(handed_in), _notebook_of(of))
+            query = query.where(grade.c.notebook_id.in_(mine), _cell_of(of))
         found: dict[str, dict[tuple[str, str], tuple[float | None, bool]]] = {}
         with self._begin() as connection:
             for row in connection.execute(query):
                 found.setdefault(row.student_id, {})[kinds[row.cell_id]] = (row.score, bool(row.needs_manual_grade))
         return found
 
-    def standings(self, of: AssignmentRow) -> dict[str, Standing]:
-        """The standing of every student who handed something in."""
+    def standings(self, of: AssignmentRow, only: Sequence[str] | None = None) -> dict[str, Standing]:
+        """The standing of every student who handed something in, or only of these few hundred."""
+        mine = submitted_notebook.c.assignment_id == submitted_assignment.c.id, _notebook_of(of)
+        marked = grade.join(submitted_notebook, grade.c.notebook_id == submitted_notebook.c.id)
+        score = sa.select(_sum(score_of)).select_from(marked).where(*mine, _cell_of(of))
+        penalty = sa.select(_sum(submitted_notebook.c.late_submission_penalty)).where(*mine)
+        query = sa.select(
+            submitted_assignment.c.student_id,
+            submitted_assignment.c.timestamp,
+            submitted_assignment.c.extension,
+            score.scalar_subquery().label("score"),
+            penalty.scalar_subquery().label("penalty"),
+        ).where(submitted_assignment.c.assignment_id == of.id)
+        if only is not None:
+            query = query.where(submitted_assignment.c.student_id.in_(only))
         with self._begin() as connection:
-            rows = connection.execute(
-                sa.select(
-                    submitted_assignment.c.student_id,
-                    submitted_assignment.c.timestamp,
-                    submitted_assignment.c.extension,
-                    sa.select(sa.func.coalesce(sa.func.sum(score_of), 0.0))
-                    .select_from(grade.join(submitted_notebook, grade.c.notebook_id == submitted_notebook.c.id))
-                    .where(submitted_notebook.c.assignment_id == submitted_assignment.c.id)
-                    .scalar_subquery()
-                    .label("score"),
-                    sa.select(sa.func.coalesce(sa.func.sum(submitted_notebook.c.late_submission_penalty), 0.0))
-                    .where(submitted_notebook.c.assignment_id == submitted_assignment.c.id)
-                    .scalar_subquery()
-                    .label("penalty"),
-                ).where(submitted_assignment.c.assignment_id == of.id)
-            )
             return {
                 row.student_id: Standing(row.score, row.penalty, seconds_late(row.timestamp, of.duedate, row.extension))
-                for row in rows
+                for row in connection.execute(query)
             }
 
     def penalties(self, of: AssignmentRow) -> dict[tuple[str, str], float]:
@@ -215,6 +221,7 @@ class Gradebook:
             sa.select(comment.c.cell_id, shown.label("text"))
             .select_from(joined)
             .where(submitted_assignment.c.assignment_id == of.id, submitted_assignment.c.student_id == name)
+            .where(comment.c.cell_id.in_(kinds), _notebook_of(of))
         )
         with self._begin() as connection:
             return {kinds[row.cell_id]: row.text for row in connection.execute(query) if row.text}
@@ -247,7 +254,7 @@ class Gradebook:
         ]
         self._insert(connection, submitted_notebook, rows)
         columns = submitted_notebook.c
-        known = sa.select(columns.assignment_id, columns.notebook_id, columns.id)
+        known = sa.select(columns.assignment_id, columns.notebook_id, columns.id).where(_notebook_of(of))
         return {(sub, nb): id for sub, nb, id in _chunked(connection, known, columns.assignment_id, submissions)}
 
     def _cells(self, connection: Connection, of: AssignmentRow, notebooks: Mapping[tuple[str, str], str]) -> None:
@@ -288,6 +295,25 @@ class Gradebook:
             connection.execute(_COMMENT, comments)
 
 
+# nbgrader's indexes begin with the cell of a grade and the notebook of a submission: a query that names only what comes second
+# reads a whole table, so these name the first too.
+def _graded(row: NotebookRow) -> list[str]:
+    """Ids of the cells that have a grade."""
+    return [*row.graded.values(), *row.tasks.values()]
+
+
+def _cell_of(of: AssignmentRow) -> sa.ColumnElement[bool]:
+    return grade.c.cell_id.in_([id for row in of.notebooks.values() for id in _graded(row)])
+
+
+def _notebook_of(of: AssignmentRow) -> sa.ColumnElement[bool]:
+    return submitted_notebook.c.notebook_id.in_([row.id for row in of.notebooks.values()])
+
+
+def _sum(column: Any) -> sa.ColumnElement[float]:
+    return sa.func.coalesce(sa.func.sum(column), 0.0)
+
+
 # A bound number decides whether a person must look; a manual mark that stands asks for a look too, as in nbgrader.
 _SCORE = (
     sa.update(grade)
@@ -321,7 +347,9 @@ def _cell_scores(row: NotebookRow, given: NotebookMarks) -> Iterator[tuple[str, 
 _DATES = sa.select(submitted_assignment.c.timestamp, submitted_assignment.c.extension).where(
     submitted_assignment.c.id == sa.bindparam("submission")
 )
-_TOTAL = sa.select(sa.func.coalesce(sa.func.sum(score_of), 0.0)).where(grade.c.notebook_id == sa.bindparam("nb"))
+_TOTAL = sa.select(_sum(score_of)).where(
+    grade.c.notebook_id == sa.bindparam("nb"), grade.c.cell_id.in_(sa.bindparam("cells", expanding=True))
+)
 _PENALTY = (
     sa.update(submitted_notebook)
     .where(submitted_notebook.c.id == sa.bindparam("nb"))
@@ -345,7 +373,7 @@ def _standing(
     total = taken = 0.0
     for name, given in record.notebooks.items():
         place = notebooks[id, of.notebooks[name].id]
-        score = float(connection.scalar(_TOTAL, {"nb": place}) or 0.0)
+        score = float(connection.scalar(_TOTAL, {"nb": place, "cells": _graded(of.notebooks[name])}) or 0.0)
         total += score
         if given.missing or given.broken:
             continue

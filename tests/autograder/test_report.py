@@ -2,6 +2,9 @@
 
 import io
 import json
+import os
+import tracemalloc
+from collections.abc import Sequence
 
 from rich.console import Console
 
@@ -87,3 +90,59 @@ def test_titles_names_and_mistakes_are_no_markup():
     assert "\x1b" not in out.getvalue()
     for said in ("On [/] and [red]red[/red]", "The cone [/b]", "[/x] ada", "slip[/]", "A1 [/i]"):
         assert said in out.getvalue()
+
+
+def many(count):
+    return GradeReport("geo", "A1", "A", Fresh(count), available=8.0)
+
+
+class Fresh(Sequence):
+    """Reports that are made anew whenever somebody asks, as those of a run are read from the disk."""
+
+    def __init__(self, count):
+        self.count = count
+
+    def __len__(self):
+        return self.count
+
+    def __getitem__(self, place):
+        if place >= self.count:
+            raise IndexError
+        return student(
+            f"s{place}", cell("cylinder", 4.0 if place % 2 else 0.25), cell("cone", None), broken=("x",) * (place == 0)
+        )
+
+
+def printed(show):
+    out = io.StringIO()
+    show(Console(file=out, width=100, color_system=None))
+    return out.getvalue().splitlines()
+
+
+def test_a_large_class_is_shown_in_tables_of_the_same_widths_that_leave_nobody_out(monkeypatch):
+    whole = printed(lambda console: report.show(many(25), console))
+    assert whole == printed(lambda console: console.print(report.table(many(25))))
+    monkeypatch.setattr(report, "PAGE", 12)
+    paged = printed(lambda console: report.show(many(25), console))
+    headings = [line for line in paged if line.startswith("┏") and len(line) == 100]  # those of parts are narrower
+    assert headings == headings[:1] * 3
+    assert sum("student" in line for line in paged) == 3
+    assert sum("25 submissions" in line for line in paged) == 1
+    rows = [[line for line in shown if line.startswith("│ s")] for shown in (whole, paged)]
+    assert len(rows[0]) == 25
+    assert rows[0] == rows[1]
+
+
+def test_what_a_larger_class_takes_to_show_does_not_grow(monkeypatch):
+    """The most that is held at a time; kept rows of this class would take 2 KB each."""
+    monkeypatch.setattr(report, "PAGE", 10)
+    peaks = []
+    for count in (20, 20, 120):  # the first time things are loaded and remembered
+        tracemalloc.start()
+        try:
+            with open(os.devnull, "w") as nowhere:
+                report.show(many(count), Console(file=nowhere, width=100))
+            peaks.append(tracemalloc.get_traced_memory()[1])
+        finally:
+            tracemalloc.stop()
+    assert peaks[2] - peaks[1] < 100 * 500, peaks

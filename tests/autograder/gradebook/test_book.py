@@ -4,6 +4,7 @@ import datetime
 import threading
 
 import pytest
+import sqlalchemy as sa
 
 from autograder.errors import CourseError
 from autograder.gradebook import Gradebook, NotebookMarks, Record
@@ -102,6 +103,42 @@ def test_a_penalty_is_capped_to_the_score_and_only_for_the_late(book, ordinary):
     assert seen == [("ada", 2.0, 3600.0), ("ada", 1.0, 3600.0)]
     assert (standings["ada"].penalty, standings["bob"].penalty) == (2.0, 0.0)
     assert book.penalties(row) == {("ada", "one"): 2.0, ("ada", "two"): 0.0, ("bob", "one"): 0.0, ("bob", "two"): 0.0}
+
+
+def test_a_part_of_the_class_reads_as_in_the_whole(book, ordinary):
+    ordinary.sql("update assignment set duedate = '2027-01-01 00:00:00.000000'")
+    row = book.assignment("ps1")
+    late = datetime.datetime(2027, 1, 1, 1)
+    book.write(row, [Record(name, late, MARKS) for name in ("ada", "bob", "eve")], penalty=lambda student, score, late: 0.5)
+    ordinary.sql("update grade set manual_score = 1, extra_credit = 0.25 where rowid % 3 = 0")
+    ordinary.sql("update student set first_name = 'Ada' where id = 'ada'")
+    some = ["eve", "ada", "nobody"]
+    for read in (lambda *only: book.read_marks(row, *only), lambda *only: book.standings(row, *only), book.students):
+        whole = read()
+        assert whole.keys() == {"ada", "bob", "eve"}
+        assert read(some) == {name: whole[name] for name in ("ada", "eve")}
+        assert read([]) == {}
+
+
+def test_no_statement_about_some_submissions_reads_those_of_all(book):
+    """nbgrader's indexes begin with what these need not name; where they do not name it, each takes longer in a large class."""
+    row = book.assignment("ps1")
+    plans = []
+
+    @sa.event.listens_for(book.engine, "before_cursor_execute")
+    def _(connection, cursor, statement, parameters, context, executemany):
+        if statement.split()[0] in ("SELECT", "UPDATE"):
+            given = parameters[0] if executemany else parameters
+            found = connection.connection.dbapi_connection.execute(f"explain query plan {statement}", given)
+            plans.extend(line[3] for line in found)
+
+    book.write(row, [Record("ada", datetime.datetime(2027, 1, 1), MARKS)], penalty=lambda student, score, late: 0.5)
+    book.read_marks(row, ["ada"])
+    book.standings(row, ["ada"])
+    book.students(["ada"])
+    book.comments(row, "ada")
+    assert len(plans) > 20
+    assert [plan for plan in plans if plan.startswith("SCAN")] == []
 
 
 def test_two_writers_wait_for_each_other(book, ordinary):
