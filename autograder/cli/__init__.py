@@ -2,36 +2,66 @@
 
 from __future__ import annotations
 
+import errno
 import gc
 import os
+import platform
 import sys
+from collections.abc import Callable
+from importlib.metadata import version
+from typing import Annotated
 
 import typer
 
 from autograder.cli import author, collecting, course, grading, machine, reading
+from autograder.cli.options import paragraphs
 from autograder.errors import DirectrixError
+
+# What the disk may refuse to anybody, and what to try.
+DISK = {
+    errno.EACCES: "may you read and write there?",
+    errno.EPERM: "may you read and write there?",
+    errno.EROFS: "choose a folder that can be written",
+    errno.ENOENT: "is its folder there?",
+    errno.ENOTDIR: "a folder is wanted where a file is",
+    errno.EEXIST: "a file of that name is in the way",
+    errno.EISDIR: "a file is wanted where a folder is",
+    errno.ENOSPC: "make room, then start again; what was finished is kept",
+    errno.EDQUOT: "make room, then start again; what was finished is kept",
+    errno.ENAMETOOLONG: "choose a shorter name",
+}
 
 app = typer.Typer(
     name="directrix",
-    help="Learn surface modelling by writing the surfaces. Start with: directrix demo",
     no_args_is_help=True,
     add_completion=False,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
 )
-app.command()(course.demo)
-app.command()(course.new)
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        print(f"directrix {version('directrix')}, Python {platform.python_version()}, nbgrader {version('nbgrader')}")
+        raise typer.Exit
+
+
+@app.callback()
+def everywhere(
+    _: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show what is installed, and exit.")
+    ] = False,
+) -> None:
+    """Learn surface modelling by writing the surfaces. Start with: directrix demo"""
+
+
+VERBS: tuple[Callable[..., None], ...] = (
+    course.demo, course.new, course.release, course.lab, grading.check, collecting.collect,
+    grading.grade, grading.feedback, reading.similar, reading.marks, reading.export, machine.doctor,
+)  # fmt: skip
+for verb in VERBS:
+    app.command(help=paragraphs(verb))(verb)
 app.add_typer(author.author, name="author")
-app.command()(course.release)
-app.command()(course.lab)
-app.command()(grading.check)
-app.command()(collecting.collect)
-app.command()(grading.grade)
-app.command()(grading.feedback)
-app.command()(reading.similar)
-app.command()(reading.marks)
-app.command()(reading.export)
-app.command()(machine.doctor)
 
 
 def main() -> None:
@@ -48,6 +78,13 @@ def main() -> None:
         sys.exit(130)
     except BrokenPipeError:  # the reader of our output has gone, as in `directrix doctor | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+    except OSError as error:  # a folder that may not be written, a full disk
+        if error.errno not in DISK:
+            raise
+        place = f"{error.filename}: " if isinstance(error.filename, str) else ""
+        print(f"directrix: {place}{error.strerror}; {DISK[error.errno]}", file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or what is still unwritten fails again at the exit
         sys.exit(1)
     finally:
         gc.freeze()  # the interpreter's end looks through all objects once more, for nothing

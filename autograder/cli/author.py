@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.markup import escape
 
-from autograder.cli.options import AsJson, console_for
+from autograder.cli.options import AsJson, console_for, paragraphs
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 author = typer.Typer(help="For whoever writes exercises.", no_args_is_help=True)
 
 
-@author.command()
 def check(
     folder: Annotated[Path, typer.Argument(help="An assignment folder, or a course folder with several.")] = Path(),
     seeds: Annotated[int, typer.Option(min=2, help="How many draws of the random data must see every mistake.")] = 10,
@@ -43,6 +42,9 @@ def check(
         print(json.dumps(told, allow_nan=False))
     if any(breach["must"] for one in told for breach in one["breaches"]):
         raise typer.Exit(1)
+
+
+author.command(help=paragraphs(check))(check)
 
 
 def _assignment(assignment: Assignment, seeds: int, console: Console, *, run: bool) -> dict[str, Any]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import sys
 from pathlib import Path
 from typing import Annotated, Any
@@ -18,9 +19,15 @@ from autograder.cli.options import AsJson, CourseOption, GradingLevel, console_f
 from autograder.errors import CourseError
 
 FIRST = ("A1", "A2", "A3")
+AS_IT_IS: Any = {"highlight": False, "markup": False, "soft_wrap": True}  # a command to be typed: no fold in the middle
 IMPATIENT = """
 c.Execute.timeout = 5  # seconds of computing for one cell: the sample class has loops that never end
 """
+
+
+def typed(path: Path) -> str:
+    """A path as it is typed into a shell."""
+    return shlex.quote(str(path))
 
 
 def new(
@@ -53,16 +60,16 @@ def new(
                 "chooses shipped assignments of a new course; it does not go with --exercise", param_hint="--assignment"
             )
         folder = authoring.new_exercise(course or Path(), exercise, kind, points)
-        console.print(
-            f"{folder}: exercise {exercise} in exercises.py, its task in notebook.py; both are yours to change", highlight=False
-        )
-        console.print(f"Next: directrix author check {folder}", highlight=False)
+        said = f"{folder}: exercise {exercise} in exercises.py, its task in notebook.py; both are yours to change"
+        console.print(said, highlight=False, markup=False)
+        console.print(f"Next: directrix author check {typed(folder)}", **AS_IT_IS)
         return
     if course is None:
         raise typer.BadParameter("the folder of the new course, as in: directrix new surfaces-2027", param_hint="COURSE")
     made = authoring.new_course(course, tuple(assignment or ()))
-    console.print(f"{course}: {', '.join(f'{a.name} {a.slug} ({a.points:g} points)' for a in made)}", highlight=False)
-    console.print(f"Next: directrix release {made[0].name} --course {course}", highlight=False)
+    listed = ", ".join(f"{a.name} {a.slug} ({a.points:g} points)" for a in made)
+    console.print(f"{course}: {listed}", highlight=False, markup=False)
+    console.print(f"Next: directrix release {made[0].name} --course {typed(course)}", **AS_IT_IS)
 
 
 def release(
@@ -100,7 +107,13 @@ def release(
 
 
 def lab(
-    folder: Annotated[Path, typer.Argument(help="A course, or a folder for your own workbook.")] = Path("directrix-workbook"),
+    folder: Annotated[
+        Path | None,
+        typer.Argument(
+            help="A course, or a folder for your own workbook.",
+            show_default="this folder if it is a course, else directrix-workbook",
+        ),
+    ] = None,
     browser: Annotated[bool, typer.Option(help="Open a browser window.")] = True,
     port: Annotated[int, typer.Option(help="Port of the local server.")] = 8888,
 ) -> None:
@@ -110,6 +123,8 @@ def lab(
     """
     from autograder import authoring
 
+    here = Path("nbgrader_config.py").is_file()
+    folder = folder or (Path() if here else Path("directrix-workbook"))
     if not (folder / "nbgrader_config.py").is_file():
         written = authoring.workbook(folder)
         kept = "your own work is kept" if not written else f"{len(written)} notebooks added, what was there is kept"
@@ -134,6 +149,8 @@ def demo(
 
     Example: directrix demo --dir demo
     """
+    from rich.markup import escape
+
     from autograder import authoring, feedback, fleet, report
     from autograder import demo as cohorts
 
@@ -171,8 +188,9 @@ def demo(
         ("graded notebooks", directory / "autograded"),
         ("feedback pages, open one in a browser", directory / "feedback"),
     ]:
-        console.print(f"  {place}  [dim]{what}[/]", highlight=False)
-    console.print(f"  directrix lab {directory}  [dim]JupyterLab with formgrader on this course[/]", highlight=False)
+        console.print(f"  {escape(str(place))}  [dim]{what}[/]", highlight=False)
+    lab = f"directrix lab {escape(typed(directory))}"
+    console.print(f"  {lab}  [dim]JupyterLab with formgrader on this course[/]", highlight=False, soft_wrap=True)
     if problems:
         raise CourseError(f"{problems} results of the demo are not as expected; they are listed above")
 

@@ -59,7 +59,12 @@ def grade(
         console, opened(course), assignment, students=student or None, force=force, workers=workers or None,
         level=level or None, scheduler=scheduler or None,
     )  # fmt: skip
-    report.show(graded, console)
+    if len(graded.students):
+        report.show(graded, console)
+    else:
+        place = opened(course).path("submitted", "STUDENT", assignment)
+        said = f"Nobody has handed in {assignment}: submissions lie in {place}"
+        console.print(said, highlight=False, markup=False, soft_wrap=True)
     if as_json:
         graded.write_json(sys.stdout)
     for failure in graded.failures:
@@ -84,4 +89,5 @@ def feedback(
     if as_json:
         print(json.dumps([str(path) for path in written]))
     else:
-        console_for(as_json).print(f"{len(written)} pages under {course / 'feedback'}", highlight=False)
+        pages_are = "1 page" if len(written) == 1 else f"{len(written)} pages"
+        console_for(as_json).print(f"{pages_are} under {course / 'feedback'}", highlight=False, markup=False)

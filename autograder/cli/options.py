@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
@@ -44,6 +46,11 @@ def opened(folder: Path) -> Course:
     from autograder.course import Course
 
     return Course(folder)
+
+
+def paragraphs(verb: Callable[..., Any]) -> str:
+    """The help of a verb, its docstring with each paragraph on one line: the terminal's width folds it, not ours."""
+    return "\n\n".join(" ".join(part.split()) for part in inspect.cleandoc(verb.__doc__ or "").split("\n\n"))
 
 
 def console_for(as_json: bool) -> Console:

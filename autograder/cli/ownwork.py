@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
+import shlex
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -58,6 +59,10 @@ def run(path: Path, *, timeout: int, environment: Mapping[str, str] | None = Non
         notebook = nbformat.read(path, as_version=4)  # type: ignore[no-untyped-call]
     except FileNotFoundError:
         raise SubmissionError(f"no such notebook: {path}") from None
+    except IsADirectoryError:
+        inside = sorted(path.glob("*.ipynb"))
+        try_this = f"name its notebook: directrix check {shlex.quote(str(inside[0]))}" if inside else "it has no notebook in it"
+        raise SubmissionError(f"{path} is a folder; {try_this}") from None
     except Exception as error:
         raise SubmissionError(f"{path} is not a notebook that can be read: {error}") from error
     stopped = ""

@@ -3,13 +3,16 @@
 import io
 import json
 import os
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import nbformat
 import pytest
 
 from autograder import authoring, catalogue
+from autograder.cli.course import lab
 from autograder.notebook import source
 
 VERBS = ["demo", "new", "release", "lab", "check", "collect", "grade", "feedback", "similar", "marks", "export", "doctor"]
@@ -54,7 +57,9 @@ def test_every_verb_has_help_with_an_example(verb, tmp_path):
         (["new", "20-x", "--exercise", "Roof"], 1, "small letters, digits and underscores"),
         (["new", "20-x", "--exercise", "roof", "--assignment", "A1"], 2, "does not go with --exercise"),
         (["check", "nothing.ipynb"], 1, "no such notebook: nothing.ipynb"),
+        (["check", "."], 1, ". is a folder; it has no notebook in it"),
         (["new", "course", "--assignment", "A99"], 1, "no assignment is called 'A99'; there are: A1"),
+        (["new", "/proc/course", "--assignment", "A1"], 1, "/proc/course: No such file or directory; is its folder there?"),
     ],
 )
 def test_a_users_error_is_a_plain_line_and_an_exit_code(arguments, code, says, tmp_path):
@@ -64,6 +69,49 @@ def test_a_users_error_is_a_plain_line_and_an_exit_code(arguments, code, says, t
     assert result.returncode == code, said
     assert says in said
     assert "Traceback" not in said
+
+
+def test_the_version_is_told_with_those_of_what_marks_depend_on(tmp_path):
+    said = directrix("--version", cwd=tmp_path)
+    assert re.fullmatch(r"directrix [\d.]+, Python 3[\d.]+, nbgrader [\d.]+\n", said.stdout)
+
+
+def test_help_is_folded_by_the_terminal_alone(tmp_path):
+    """A line of a docstring is no line of the screen: it would be folded twice."""
+    said = directrix("release", "--help", cwd=tmp_path)
+    assert " source/A20. Its check(...) works in learners' own JupyterLab where they have" in said.stdout
+
+
+def test_a_command_to_be_typed_can_be_typed(tmp_path):
+    """With blanks in the folder's name, and though the line is longer than the screen."""
+    made = directrix("new", "surfaces and solids", "--assignment", "A1", cwd=tmp_path)
+    assert "Next: directrix release A1 --course 'surfaces and solids'\n" in made.stdout
+
+
+def test_grade_says_where_submissions_should_lie_if_there_is_none(surfaces):
+    said = directrix("grade", "A1", "--course", surfaces.folder, cwd=surfaces.folder)
+    assert said.returncode == 0
+    assert said.stdout.strip() == f"Nobody has handed in A1: submissions lie in {surfaces.folder}/submitted/STUDENT/A1"
+
+
+@pytest.mark.parametrize("arguments", [["marks", "A1", "--csv"], ["similar", "A1", "--html"]])
+def test_a_file_that_cannot_be_written_is_a_plain_line(surfaces, arguments):
+    surfaces.hand_in("ada", {})
+    said = directrix(*arguments, "nowhere/file", cwd=surfaces.folder)
+    assert said.returncode == 1
+    assert said.stderr == "directrix: nowhere/file: No such file or directory; is its folder there?\n"
+
+
+def test_lab_opens_the_course_whose_folder_it_is_started_in(tmp_path, monkeypatch):
+    """And makes no learner's workbook in it; elsewhere it makes one."""
+    started = []
+    monkeypatch.setattr(os, "execv", lambda program, arguments: started.append(Path.cwd()))
+    course = tmp_path / "course"
+    authoring.new_course(course, ("A1",))
+    for folder in (course, tmp_path):
+        monkeypatch.chdir(folder)
+        lab(None, browser=False)
+    assert started == [course, tmp_path / "directrix-workbook"]
 
 
 def test_author_check_tells_a_program_what_it_tells_people(tmp_path):
