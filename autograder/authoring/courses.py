@@ -6,6 +6,7 @@ import hashlib
 import json
 import logging
 import os
+import re
 import secrets
 import shutil
 import sysconfig
@@ -83,7 +84,8 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     Returns the folder ``release/NAME``. Raises CourseError with nbgrader's own words where it refuses.
     """
     from nbgrader.apps import NbGraderAPI  # slow to import, and only needed here
-    from traitlets.config.loader import PyFileConfigLoader
+
+    from autograder.course import load_config
 
     if not (course / catalogue.CONFIG).is_file():
         raise CourseError(f"{course} is not a course: it has no nbgrader_config.py; make one with `directrix new FOLDER`")
@@ -98,16 +100,25 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     if not (course / "source" / name).is_dir():
         there = sorted(path.name for path in (course / "source").glob("*") if path.is_dir())
         raise CourseError(f"no assignment {name!r} in {course / 'source'}; there are: {', '.join(there) or 'none'}")
-    config: Any = PyFileConfigLoader("nbgrader_config.py", path=str(course)).load_config()
+    config: Any = load_config(course.resolve())
     config.CourseDirectory.root = str(course.resolve())
     with _quiet("traitlets"), _tools_on_path():
         result = NbGraderAPI(config=config).generate_assignment(name, force=True, create=True)
     if not result["success"]:
-        raise CourseError(f"nbgrader could not release {name}:\n{(result.get('log') or result.get('error') or '').strip()}")
+        raise CourseError(f"nbgrader could not release {name}: {_said(result.get('log') or result.get('error') or '')}")
     released = course / "release" / name
     if own is not None and with_exercises:
         _put_beside(own, released / catalogue.BESIDE / own.folder.name)
     return released
+
+
+def _said(log: str) -> str:
+    """What nbgrader's log says was wrong: what was raised, without the lines of code it went through; else its errors."""
+    raised = re.findall(r"^ {4}([\w.]+): (.*)$", log, re.MULTILINE)
+    said = dict.fromkeys(text if kind == "autograder.errors.CourseError" else f"{kind.rpartition('.')[2]}: {text}"
+                         for kind, text in raised)  # fmt: skip
+    said = said or dict.fromkeys(re.findall(r"^\[(?:ERROR|WARNING)\] (.*)$", log, re.MULTILINE))
+    return "; ".join(said) or log.strip()
 
 
 def unknown_to_learners(course: Path, released: Path) -> list[str]:

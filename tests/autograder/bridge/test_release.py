@@ -24,7 +24,8 @@ def source(made):
         notebook = nbformat.read(path, 4)
         (cell,) = [cell for cell in notebook.cells if cell.metadata.get("nbgrader", {}).get("grade_id") == grade_id]
         cell.source = changes.get("source", cell.source)
-        cell.metadata.nbgrader.points = changes.get("points", cell.metadata.nbgrader.points)
+        if "points" in changes:
+            cell.metadata.nbgrader.points = changes["points"]
         nbformat.write(notebook, path)
 
     yield change
@@ -51,7 +52,24 @@ def test_a_cell_that_could_not_be_graded_stops_the_release_by_name(made, source,
     source("check_torus", **changes)
     with pytest.raises(CourseError, match="could not release A1") as caught:
         authoring.release(made, "A1")
-    assert says in " ".join(str(caught.value).split())
+    assert str(caught.value).startswith("nbgrader could not release A1: cell 'check_torus' ")
+    assert says in str(caught.value)
+
+
+def test_what_nbgrader_raises_is_told_without_its_lines_of_code(made, source):
+    source("torus", source="x = 1\n### BEGIN SOLUTION")
+    with pytest.raises(CourseError) as caught:
+        authoring.release(made, "A1")
+    assert str(caught.value) == "nbgrader could not release A1: RuntimeError: no end solution statement found"
+
+
+def test_a_configuration_that_cannot_be_read_is_a_plain_sentence(made):
+    config = made / "nbgrader_config.py"
+    before = config.read_text()
+    config.write_text(before + "\nc.Foo(")
+    with pytest.raises(CourseError, match=r"nbgrader_config.py cannot be read: SyntaxError"):
+        authoring.release(made, "A1")
+    config.write_text(before)
 
 
 def test_a_comment_beside_the_call_is_no_fault(made, source):
