@@ -8,7 +8,7 @@ report.show(graded, console)        # the same without holding all of a large cl
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -26,7 +26,7 @@ STATUS = {
     "graded": ("graded", ""),
     "unchanged": ("unchanged", "dim"),
     "broken": ("could not be read", "bold red"),
-    "empty": ("nothing handed in", "yellow"),
+    "empty": ("no notebook", "yellow"),
     "failed": ("not graded", "bold red"),
 }
 
@@ -125,15 +125,21 @@ def _pieces(graded: GradeReport) -> Iterator[RenderableType]:
     found = parts(graded)
     if any(part.mistakes or part.mean is not None for part in found):
         yield from ("", _class(found))
-    for heading, lines in (("Could not be read", graded.broken), ("The grader's own failures", graded.faults)):
-        if lines:
-            yield from ("", Text(heading, style="bold red"))
-            yield from (Padding(Text(plain(line)), (0, 0, 0, 2)) for line in lines)
-    if graded.shared:
-        heading = "Tests that ran in the learners' own process, where they can be tampered with"
-        yield from ("", Text(heading, style="bold yellow"))
-        yield from (Padding(Text(plain(f"{cell}: {why}")), (0, 0, 0, 2)) for cell, why in graded.shared.items())
+    without = (f"{student.student}: {'; '.join(student.notes)}" for student in graded.students if student.status == "empty")
+    yield from _listed("No notebook under the name that was released", "bold yellow", without)
+    yield from _listed("Could not be read", "bold red", graded.broken)
+    yield from _listed("The grader's own failures", "bold red", graded.faults)
+    shared = (f"{cell}: {why}" for cell, why in graded.shared.items())
+    yield from _listed("Tests that ran in the learners' own process, where they can be tampered with", "bold yellow", shared)
     yield Text(_footer(graded), style="dim")
+
+
+def _listed(heading: str, style: str, lines: Iterable[str]) -> Iterator[RenderableType]:
+    """Lines under a heading; nothing where there are none."""
+    for number, line in enumerate(lines):
+        if number == 0:
+            yield from ("", Text(heading, style=style))
+        yield Padding(Text(plain(line)), (0, 0, 0, 2))
 
 
 @dataclass
@@ -157,7 +163,8 @@ def _widths(graded: GradeReport) -> _Widths:
 
 
 def _students(graded: GradeReport, widths: _Widths) -> Iterator[Table]:
-    made = _page(widths, title=plain(f"{graded.assignment}: {len(graded.students)} submissions"))
+    count = len(graded.students)
+    made = _page(widths, title=plain(f"{graded.assignment}: {count} submission{'s' * (count != 1)}"))
     for student in graded.students:
         if made.row_count == PAGE:
             yield made

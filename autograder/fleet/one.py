@@ -108,8 +108,11 @@ class _Work:
         self.broken: list[str] = []
         self.faults: list[str] = []
         self.hurried = False
-        unknown = sorted(set(submitted.notebooks) - set(plan.masters))
-        self.notes += [f"{name}.ipynb: not a notebook of this assignment, left out" for name in unknown]
+        unknown = sorted(path for path in submitted.files if path.endswith(".ipynb") and path[:-6] not in plan.masters)
+        self.notes += [f"{path}: not a notebook of this assignment, left out" for path in unknown]
+        if not set(submitted.notebooks) & set(plan.masters):
+            archives = sorted(path for path in submitted.files if path.lower().endswith(".zip"))
+            self.notes += [f"{path}: an archive, not opened" for path in archives]
 
     def grade(self, name: str, master: Master) -> None:
         """Grade one notebook, or say why not."""

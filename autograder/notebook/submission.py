@@ -219,6 +219,12 @@ def parse(data: bytes) -> dict[str, Any]:
     except UnicodeDecodeError:
         raise SubmissionError("the notebook is no text; perhaps another kind of file was renamed") from None
     except json.JSONDecodeError as error:
+        begins = error.doc.strip()[:16]
+        if not begins:
+            raise SubmissionError("the file is empty") from None
+        if not begins.startswith("{"):
+            said = f"the file is no notebook: it begins with {begins!r}; perhaps another kind of file was saved under its name"
+            raise SubmissionError(said) from None
         ends = error.msg.startswith("Unterminated") or error.pos >= len(error.doc.rstrip()) - 2
         how = "it ends in the middle, as after an upload that broke off" if ends else f"line {error.lineno}: {error.msg}"
         raise SubmissionError(f"the notebook is not valid JSON: {how}") from None

@@ -67,6 +67,16 @@ def test_the_table_names_everybody_and_what_went_wrong():
     assert "3 graded in 2.0 s, 1.5 a second; sandbox level A" in text
 
 
+def test_a_notebook_under_another_name_is_named_with_what_was_wanted():
+    """Who handed in known-forms (1).ipynb has not handed in nothing."""
+    notes = ("nb (1).ipynb: not a notebook of this assignment, left out", "nb.ipynb: not handed in")
+    graded = GradeReport("geo", "A1", "A", (student("ada", cell("cylinder", 0.0), status="empty", notes=notes),))
+    out = io.StringIO()
+    Console(file=out, width=160, color_system=None).print(report.table(graded))
+    assert "A1: 1 submission\n" in "\n".join(line.rstrip() + "\n" for line in out.getvalue().splitlines())
+    assert f"ada: {'; '.join(notes)}" in out.getvalue()
+
+
 def test_names_and_messages_cannot_steer_the_terminal():
     text = shown()
     assert "\x1b" not in text

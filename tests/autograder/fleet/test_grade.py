@@ -108,9 +108,22 @@ def test_a_missing_notebook_is_zero_and_a_broken_one_is_named(ordinary):
     assert points(graded, "bob") == {**points(graded, "ada"), "test_add": None}
     assert graded.broken[0].startswith("bob: two.ipynb: the notebook is not valid JSON: it ends in the middle")
     assert graded.student("eve").status == "empty"
+    assert graded.student("eve").notes == ("one.ipynb: not handed in", "two.ipynb: not handed in")
     grades = {(row[0], row[2]): row[4:] for row in ordinary.tables()["grades"]}
     assert grades["ada", "test_add"] == (0.0, None, None, 0)
     assert grades["bob", "test_add"] == (None, None, None, 1)
+
+
+def test_what_lies_there_in_the_place_of_a_notebook_is_noted(ordinary):
+    """Under another name, in a folder, in an archive: none is graded, and each is said."""
+    place = ordinary.hand_in("eve", {}, files={"one (1).ipynb": b"{}", "work.zip": b"PK"})
+    (place / "hw").mkdir()
+    (place / "hw" / "two.ipynb").write_text("{}")
+    left, wanted = "not a notebook of this assignment, left out", "not handed in"
+    assert fleet.grade(ordinary.course(), "ps1").student("eve").notes == (
+        f"hw/two.ipynb: {left}", f"one (1).ipynb: {left}", "work.zip: an archive, not opened",
+        f"one.ipynb: {wanted}", f"two.ipynb: {wanted}",
+    )  # fmt: skip
 
 
 def test_links_and_devices_are_not_copied(ordinary):

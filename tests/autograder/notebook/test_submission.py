@@ -132,7 +132,8 @@ def test_a_notebook_parses():
 @pytest.mark.parametrize(
     ("data", "said"),
     [
-        (b"", "ends in the middle"),
+        (b"", "the file is empty"),
+        (b"<!DOCTYPE html><html>Log in</html>", "begins with '<!DOCTYPE html><'; perhaps another kind of file"),
         (json.dumps(NOTEBOOK)[:-3].encode(), "ends in the middle"),
         (b'{"nbformat": 4, "cells": [{"source": "def f', "ends in the middle"),
         (b'{"nbformat": 4,, "cells": []}', "line 1"),
