@@ -1,12 +1,14 @@
 """Takes what a learning platform exports, one zip archive for a class, into ``submitted/``.
 
     ada/known-forms.ipynb                                     a folder for each student (ILIAS, and by hand)
-    Ada Lovelace_4711_assignsubmission_file_/known-forms.ipynb      Moodle: the number is the student's
+    Ada Lovelace_4711_assignsubmission_file_/known-forms.ipynb      Moodle: the number is the student's, with folders
+    Ada Lovelace_4711_assignsubmission_file_known-forms.ipynb       or without
     lovelaceada_4711_90210_known-forms.ipynb                        Canvas: the first number is the student's
     ada.zip, ada/work.zip                                     what learners zipped themselves, one level deep
 
-A regular expression with a group ``student`` (and ``file``, for archives without folders) reads other names. Nothing is written
-outside ``submitted/<student>/<assignment>``, each of which is put into place whole; whatever is not taken is named.
+One folder around all students is no student's. A regular expression with a group ``student`` (and ``file``, for archives
+without folders) reads other names. Nothing is written outside ``submitted/<student>/<assignment>``, each of which is put into
+place whole; whatever is not taken is named.
 """
 
 from __future__ import annotations
@@ -27,6 +29,7 @@ from autograder.notebook.submission import PLAIN_ID, Bounds, beside
 from autograder.sandbox.session import plain_name
 
 FOLDERS = re.compile(r".+_(?P<student>\d+)_assignsubmission_\w+?_?$")
+FLAT = re.compile(r".+_(?P<student>\d+)_assignsubmission_[a-z]+_(?P<file>.+)$")
 FILES = re.compile(r"[^_]+_(?:LATE_)?(?P<student>\d+)_\d+_(?P<file>.+)$")
 AGAIN = re.compile(r"-\d+(?=\.ipynb$)")  # Canvas numbers what is handed in again
 CLASS = Bounds(entries=100_000)
@@ -89,7 +92,7 @@ def to_dict(taken: Sequence[Taken]) -> list[dict[str, Any]]:
 
 def _rules(pattern: str | None) -> tuple[re.Pattern[str], ...]:
     if pattern is None:
-        return FOLDERS, FILES
+        return FOLDERS, FLAT, FILES
     try:
         compiled = re.compile(pattern)
     except re.error as error:
@@ -112,20 +115,37 @@ def _sort(
         raise SubmissionError(f"it has more than {CLASS.entries} members")
     refused: dict[str, str] = {}
     chosen: dict[str, list[tuple[str, zipfile.ZipInfo]]] = {}
-    for path, info in archive.members(opened, refused, course.ignore):
-        student, inner = _whose(path, rules, notebooks)
+    members = list(archive.members(opened, refused, course.ignore))
+    around = _around([path for path, _ in members], rules, notebooks)
+    for path, info in members:
+        student, inner = _whose(path.removeprefix(around), rules, notebooks)
         if student:
             chosen.setdefault(student, []).append((inner, info))
         else:
             strangers.refused[path] = "its name does not say whose it is"
     for path, reason in refused.items():
-        student, inner = _whose(path, rules, notebooks)
+        student, inner = _whose(path.removeprefix(around), rules, notebooks)
         part = parts.setdefault(student, Unpacked()) if student in chosen else strangers
         part.refused[inner if student in chosen else path] = reason
     for student, listed in chosen.items():
         part = parts.setdefault(student, Unpacked())
         archive.take(opened, listed, part, course.bounds)
         _inner(part, course)
+
+
+def _around(paths: Sequence[str], rules: Sequence[re.Pattern[str]], notebooks: set[str]) -> str:
+    """The folder around all students, ``export/``; empty if there is none, or if it may be a student's own.
+
+    It is no student's if all that lies in it is named as a platform names it, or one notebook is in several of its folders.
+    """
+    tops = {path.partition("/")[0] for path in paths if "/" in path}
+    if len(tops) != 1 or not all("/" in path for path in paths) or any(rule.search(top) for rule in rules for top in tops):
+        return ""
+    inside = [path.split("/")[1:] for path in paths]
+    named = all(any(rule.search(parts[0]) for rule in rules) for parts in inside)
+    holders = [(parts[-1], parts[0]) for parts in inside if len(parts) > 1 and parts[-1][:-6] in notebooks]
+    several = len(set(holders)) > len({notebook for notebook, _ in holders})
+    return f"{tops.pop()}/" if named or several else ""
 
 
 def _whose(path: str, rules: Sequence[re.Pattern[str]], notebooks: set[str]) -> tuple[str, str]:

@@ -40,6 +40,7 @@ def collect(
         for name, reason in one.refused.items():
             console.print(f"  [yellow]not taken:[/] {escape(plain(f'{name}: {reason}' if name else reason))}", highlight=False)
     placed = sum(one.placed for one in found)
-    console.print(f"{placed} submissions of {escape(assignment)} in {course / 'submitted'}", highlight=False)
+    submissions = "1 submission" if placed == 1 else f"{placed} submissions"
+    console.print(f"{submissions} of {assignment} in {course / 'submitted'}", highlight=False, markup=False)
     if any(one.refused for one in found):
         raise typer.Exit(1)

@@ -38,7 +38,11 @@ def test_a_folder_for_each_student(ordinary, tmp_path):
     [
         ("Ada Lovelace_4711_assignsubmission_file_/one.ipynb", "4711/ps1/one.ipynb"),
         ("Ada_Lovelace_4711_assignsubmission_file/one.ipynb", "4711/ps1/one.ipynb"),
+        ("Ada Lovelace_4711_assignsubmission_file_one.ipynb", "4711/ps1/one.ipynb"),
+        ("Ada_Lovelace_4711_assignsubmission_file_my_plot.png", "4711/ps1/my_plot.png"),
         ("lovelaceada_4711_90210_one.ipynb", "4711/ps1/one.ipynb"),
+        ("export/Ada Lovelace_4711_assignsubmission_file_/one.ipynb", "4711/ps1/one.ipynb"),
+        ("export/lovelaceada_4711_90210_one.ipynb", "4711/ps1/one.ipynb"),
         ("lovelaceada_LATE_4711_90210_one-2.ipynb", "4711/ps1/one.ipynb"),
         ("lovelaceada_4711_90210_plot-2.png", "4711/ps1/plot-2.png"),
         ("ada/A1 homework/one.ipynb", "ada/ps1/one.ipynb"),
@@ -47,6 +51,18 @@ def test_a_folder_for_each_student(ordinary, tmp_path):
 def test_names_of_learning_platforms(ordinary, tmp_path, name, placed):
     taken(ordinary, tmp_path, (name, "{}"))
     assert list(submitted(ordinary)) == [placed]
+
+
+def test_a_folder_around_all_students_is_no_student(ordinary, tmp_path):
+    """As after packing a folder by hand: one notebook in several folders is not one student's."""
+    taken(ordinary, tmp_path, ("export/ada/one.ipynb", "{}"), ("export/bob/hw/one.ipynb", "[]"), ("export/bob/two.ipynb", "1"))
+    assert submitted(ordinary) == {"ada/ps1/one.ipynb": b"{}", "bob/ps1/hw/one.ipynb": b"[]", "bob/ps1/two.ipynb": b"1"}
+
+
+def test_a_student_with_folders_of_her_own_is_one_student(ordinary, tmp_path):
+    """The neighbour: each notebook is there once."""
+    files = ("ada/first/one.ipynb", "{}"), ("ada/second/two.ipynb", "[]"), ("ada/data_4711_90210_x.csv", "")
+    assert list(taken(ordinary, tmp_path, *files)) == ["ada"]
 
 
 def test_other_names_by_a_pattern(ordinary, tmp_path):
