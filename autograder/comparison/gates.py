@@ -105,7 +105,7 @@ def error_gate(failure: Raised) -> Gate:
         return Gate("error", "error.writes", facts)
     if failure.is_a("TypeError") and ("positional argument" in failure.message or "required positional" in failure.message):
         return Gate("error", "error.signature", facts)
-    for name in ("RecursionError", "NameError", "SystemExit", "ZeroDivisionError", "IndexError"):
+    for name in ("RecursionError", "NameError", "SystemExit", "ZeroDivisionError", "AxisError", "IndexError"):
         if failure.is_a(name):
             return Gate("error", f"error.{name}", facts)
     return Gate("error", "error.exception", facts)
@@ -145,7 +145,7 @@ def _trouble(target: Target, form: Form, answer: Answer | None, wanted: tuple[in
     if isinstance(answer, Raised):
         gate = error_gate(answer)
         key = "shape.raised_writes" if gate.key == "error.writes" else "shape.raised"
-        return Trouble(form, key, {**facts, "exception": answer.exception, "message": answer.message})
+        return Trouble(form, key, {**facts, "exception": answer.exception, "message": answer.message.rstrip(".")})
     if isinstance(answer, Unreadable):
         return Trouble(
             form,
@@ -159,16 +159,19 @@ def _trouble(target: Target, form: Form, answer: Answer | None, wanted: tuple[in
         return None
     facts["got"] = str(got)
     count = wanted[0] if form == "vector" else 0
-    if wanted and len(wanted) > 1 and got == (wanted[-1], *wanted[:-1]):
+    points = target.values.ndim > 1  # a mask has one number a place, and no coordinates
+    if points and len(wanted) > 1 and got == (wanted[-1], *wanted[:-1]):
         return Trouble(form, "shape.coordinates_first", facts)
     if form == "vector" and len(names) == 2 and got[:2] == (count, count):
         return Trouble(form, "shape.own_mesh", facts)
     if form == "mesh" and len(got) > 1 and got == (wanted[1], wanted[0], *wanted[2:]):
         return Trouble(form, "shape.mesh_transposed", facts)
-    if got == wanted[:-1]:
+    if points and got == wanted[:-1]:
         return Trouble(form, "shape.one_coordinate", facts)
-    if got == wanted[-1:] and form != "scalar":
+    if points and got == wanted[-1:] and form != "scalar":
         return Trouble(form, "shape.one_point", facts)
+    if points and got[:-1] == wanted[:-1]:
+        return Trouble(form, "shape.coordinates", {**facts, "count": got[-1], "coordinates": wanted[-1]})
     return Trouble(form, "shape.other", facts)
 
 

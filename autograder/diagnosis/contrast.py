@@ -27,6 +27,7 @@ class Contrast:
     property: str
     names: tuple[str, ...]
     right_have_it: bool
+    refusals: bool = False  # there are data without an answer too, of which nothing is said
 
 
 def contrast(findings: Sequence[Finding]) -> Contrast | None:
@@ -34,6 +35,7 @@ def contrast(findings: Sequence[Finding]) -> Contrast | None:
     shown = [f for f in findings if not f.target.hidden and not f.target.raises]
     right = [f.target.drawn.arguments for f in shown if f.right]
     wrong = [f.target.drawn.arguments for f in shown if not f.right]
+    refusals = len(shown) < len(findings)
     if not right or not wrong:
         return None
     for key, names, holds in _properties(right[0]):
@@ -43,9 +45,9 @@ def contrast(findings: Sequence[Finding]) -> Contrast | None:
         except (TypeError, ValueError, IndexError):  # one of them is of another kind
             continue
         if all(yes) and not any(no):
-            return Contrast(key, names, True)
+            return Contrast(key, names, True, refusals)
         if all(no) and not any(yes):
-            return Contrast(key, names, False)
+            return Contrast(key, names, False, refusals)
     return None
 
 

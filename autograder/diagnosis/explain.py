@@ -55,6 +55,7 @@ LOOKS = {
     "repeat.other": "look.repeat",
     "repeat.raised": "look.repeat",
     "shape.raised_writes": "look.writes",
+    "shape.coordinates": "look.shape.coordinates",
 }
 
 
@@ -411,7 +412,8 @@ class Explanation:
                 *value_where(finding, data),
                 ("look", say("look.close")),
             ]
-        look = self._look_of_contrast() or say("look.value")
+        plain = "look.value_shape" if finding.tier == "shape" else "look.value"
+        look = self._look_of_contrast() or say(plain)
         told = sense_text(self.wrong)
         sense: Parts = [("wrong", told)] if told else []
         return [*parts, *value_wrong(finding, answer, expected), *sense, *value_where(finding, data), ("look", look)]

@@ -36,7 +36,8 @@ def of_data(found: Contrast) -> Told:
     names = listing(found.names)
     has, lacks = say(f"has.{found.property}", names=names), say(f"lacks.{found.property}", names=names)
     right, wrong = (has, lacks) if found.right_have_it else (lacks, has)
-    return say("right.contrast", right=right, wrong=wrong), say("look.contrast", names=names)
+    key = "right.contrast_answered" if found.refusals else "right.contrast"
+    return say(key, right=right, wrong=wrong), say("look.contrast", names=names)
 
 
 def _coordinates(where: Localised) -> str | None:

@@ -55,6 +55,7 @@ JUDGED: dict[str, str] = {
     "right.corners_some": "The corners {names} are right.",
     "right.built": "{id} does with your {names} just what it should.",
     "right.contrast": "It is right where {right}, and wrong where {wrong}.",
+    "right.contrast_answered": "Of the data that have an answer, it is right where {right}, and wrong where {wrong}.",
     "right.only_side": "It is right everywhere but {thing} {names}.",
     "right.only_sides": "It is right everywhere but {thing}s {names}.",
     "spans.but": "Along {name} it is right in every span but {run}.",
@@ -249,6 +250,7 @@ JUDGED: dict[str, str] = {
     "look.hidden": (
         "It works for the numbers you see. Which numbers could come that you have not tried (signs, lengths, orders)?"
     ),
+    "look.value_shape": "Print the shape of your answer for this data set: which axis is which in the statement?",
     "look.value": "Work this data set out by hand and compare.",
     "look.empty": "A remark, no marks lost: empty arrays of parameters should give an empty array of shape {wanted}.",
     # --- values
@@ -294,6 +296,7 @@ JUDGED: dict[str, str] = {
     "error.NameError": "Your function uses a name that is not defined: {message}",
     "error.SystemExit": "Your function ends the program (exit or quit) where it should return an answer.",
     "error.ZeroDivisionError": "Your function divides by zero.",
+    "error.AxisError": "Your function asks for an axis that its array does not have: {message}",
     "error.IndexError": "Your function reaches beyond the end of an array: {message}",
     "error.timeout": "Your function took too long and was stopped.",
     "error.memory": "Your function asked for more memory than there is.",
@@ -316,6 +319,7 @@ JUDGED: dict[str, str] = {
     "look.RecursionError": "Look at the case in which it should stop calling itself.",
     "look.SystemExit": "End the function with return.",
     "look.ZeroDivisionError": "For which arguments is the divisor 0? Treat these apart.",
+    "look.AxisError": "Print the shape of that array: how many axes has it? A single number has none.",
     "look.IndexError": "Indices run from 0 to the length less 1; an array of shape (4, 4, 3) ends at [3, 3].",
     # --- gates: answers that are not numbers
     "answer.none": "Your function returned nothing (None).",
@@ -337,7 +341,7 @@ JUDGED: dict[str, str] = {
     "look.object": "Return one array: np.stack([x, y, z], axis=-1) for points.",
     # --- gates: shapes
     "shape.some": "It does not handle {given} for {names}.",
-    "shape.raised": "With {given} for {names} it stops with {exception}: {message}",
+    "shape.raised": "With {given} for {names} it stops with {exception}: {message}.",
     "shape.raised_writes": "With {given} for {names} it writes into the arrays it was given.",
     "shape.coordinates_first": "With {given} for {names} it returns shape {got}; wanted is {wanted}, coordinates last.",
     "shape.own_mesh": (
@@ -347,6 +351,9 @@ JUDGED: dict[str, str] = {
         "With {given} for {names} it returns shape {got}; wanted is {wanted}: the first axis belongs to u."
     ),
     "shape.one_coordinate": "With {given} for {names} it returns shape {got}: one number a point; wanted is {wanted}.",
+    "shape.coordinates": (
+        "With {given} for {names} it returns shape {got}: {count} numbers for each place; wanted are {coordinates}, {wanted}."
+    ),
     "shape.one_point": "With {given} for {names} it returns a single point; wanted is {wanted}, a point for each parameter.",
     "shape.parts": "With {given} for {names} the coordinates have different shapes ({parts}) and do not make one array.",
     "shape.none": "With {given} for {names} it returns nothing.",
@@ -356,6 +363,7 @@ JUDGED: dict[str, str] = {
     "look.own_mesh": "Do not make a mesh inside: take u and w as they come, element by element.",
     "look.mesh_transposed": "Let u and w broadcast (np.broadcast_arrays(u, w)); do not turn the axes.",
     "look.shape": "Begin with u, w = np.broadcast_arrays(u, w), then every coordinate gets the same shape.",
+    "look.shape.coordinates": "Count what goes into np.stack([x, y, z], axis=-1): one array for each coordinate.",
     "look.shape_curve": "Use NumPy operations on the whole array (np.cos, not math.cos), then np.stack([x, y, z], axis=-1).",
     "look.numbers_only": "It handles single numbers only: use NumPy functions (np.cos, not math.cos), which take whole arrays.",
     # --- gates: finite, pointwise, repeatable

@@ -51,6 +51,40 @@ class TestShapes:
         assert verdict.tier == "shape"
         assert "coordinates last" in verdict.message
 
+    def test_another_number_of_coordinates(self, tube):
+        verdict = judge(tube, lambda *a: right(*a)[..., :2])
+        assert verdict.tier == "shape"
+        assert "2 numbers for each place; wanted are 3, (167, 3)." in verdict.message
+        assert "one array for each coordinate" in verdict.message
+
+    def test_an_error_under_one_form_is_a_sentence_of_its_own(self, tube):
+        """What Python says of it ends without a full stop, or with one; the next sentence begins after one."""
+        for said in ("cannot", "cannot."):
+
+            def call(u, w, r, h, said=said):
+                if np.ndim(u):
+                    raise TypeError(said)
+                return right(u, w, r, h)
+
+            assert " stops with TypeError: cannot. With arrays " in judge(tube, call).message
+
+    def test_a_mask_has_no_coordinates(self):
+        """A turned mesh is one; a single number is not one coordinate of a point."""
+
+        @exercise(points=1, title="Half", kind="mask")
+        def half(u, w):
+            """Return where u + w <= 1."""
+            return np.add(u, w) <= 1
+
+        half.data(lambda rng: {})
+        turned = judge(half, lambda u, w: np.asarray(half.reference(u, w)).T).message
+        assert "the first axis belongs to u" in turned
+        single = judge(half, lambda u, w: True).message
+        for message in (turned, single):
+            assert "coordinates last" not in message
+            assert "np.stack" not in message
+            assert "number a point" not in message
+
     def test_a_mesh_made_inside(self, tube):
         verdict = judge(tube, lambda u, w, r, h: right(*np.meshgrid(u, w), r, h))
         assert (verdict.tier, verdict.fraction) == ("shape", 0.0)
@@ -174,6 +208,13 @@ class TestGates:
             return radius  # noqa: F821
 
         assert "'radius' is not defined" in self.message(tube, call, "error")
+
+    def test_an_axis_that_is_not_there(self, tube):
+        """numpy's AxisError is an IndexError too, but no index is too large."""
+        message = judge(tube, lambda u, w, r, h: np.stack([u, w, u], axis=7)).message
+        assert "asks for an axis that its array does not have: axis 7 is out of bounds" in message
+        assert "Print the shape of that array" in message
+        assert "Indices run" not in message
 
     def test_endless_recursion(self, tube):
         def call(u, w, r, h):
