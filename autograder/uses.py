@@ -1,4 +1,4 @@
-"""Which functions of a notebook a function calls: read from its text, which is never run, or from the function itself.
+"""What a function uses, of its notebook and of other modules: read from its text, which is never run, or from itself.
 
 A learner's text is hostile where marks are given, so it is taken apart by ``tokenize``, which is plain Python, and neither
 parsed nor compiled. What comes out is a plain fact ("its text has this name in it"), enough to ask a further question with.
@@ -9,10 +9,11 @@ from __future__ import annotations
 import dis
 import functools
 import io
+import itertools
 import keyword
 import tokenize
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from types import CodeType, FunctionType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 LONGEST = 40_000  # characters of a cell that is read
@@ -33,15 +34,56 @@ def in_text(sources: Iterable[str], name: str, wanted: Collection[str]) -> tuple
 
 def in_function(function: Callable[..., Any], wanted: Collection[str]) -> tuple[str, ...]:
     """The same of a function that is at hand: the wanted names among the globals that it and its helpers look up."""
-    start = getattr(function, "pyfunc", function)  # numpy.vectorize
-    known: Mapping[str, Any] = getattr(start, "__globals__", {})
+    return _reached("", lambda name: _names(function, name), set(wanted) - {getattr(function, "__name__", "")})
 
-    def used(name: str) -> set[str]:
-        value = start if name == "" else known.get(name)
-        value = getattr(value, "pyfunc", value)
-        return set(_globals_in(value.__code__)) & set(known) if isinstance(value, FunctionType) else set()
 
-    return _reached("", used, set(wanted) - {getattr(function, "__name__", "")})
+def modules(function: Callable[..., Any]) -> tuple[str, ...]:
+    """Modules that a function and its helpers import or look up, or whose functions they do, as far as it can be seen."""
+    known, found, todo, seen = _globals_of(function), set(), [""], {""}
+    while todo:
+        name = todo.pop()
+        value = _plain(function if name == "" else known[name])
+        if isinstance(value, ModuleType):
+            found.add(value.__name__)
+        elif isinstance(value, FunctionType) and value.__globals__ is known:
+            found |= set(_imported_in(value.__code__))
+            todo += _names(function, name) - seen
+            seen |= set(todo)
+        elif callable(value) and isinstance(home := getattr(value, "__module__", None), str):
+            found.add(home)
+    return tuple(sorted(found))
+
+
+def _plain(function: Any) -> Any:
+    return getattr(function, "pyfunc", function)  # numpy.vectorize
+
+
+def _globals_of(function: Any) -> Mapping[str, Any]:
+    known: Mapping[str, Any] = getattr(_plain(function), "__globals__", {})
+    return known
+
+
+def _names(function: Any, name: str) -> set[str]:
+    """What the function, or the helper of that name, looks up among the globals of the function."""
+    known = _globals_of(function)
+    value = _plain(function if name == "" else known.get(name))
+    return set(_globals_in(value.__code__)) & set(known) if isinstance(value, FunctionType) else set()
+
+
+def _imported_in(code: CodeType) -> Iterator[str]:
+    """Names of the modules that a code imports while it runs: ``from a import b`` may mean the module a.b."""
+    steps = [step for step in dis.get_instructions(code) if step.opname in ("IMPORT_NAME", "IMPORT_FROM")]
+    module = ""
+    for step, after in itertools.zip_longest(steps, steps[1:]):
+        if step.opname == "IMPORT_FROM":
+            yield f"{module}.{step.argval}"
+        else:
+            module = step.argval
+            if after is None or after.opname == "IMPORT_NAME":
+                yield module
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            yield from _imported_in(constant)
 
 
 def _reached(name: str, used: Callable[[str], set[str]], wanted: set[str]) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from autograder import card, personal
+from autograder import card, personal, uses
 from autograder.catalogue import Catalogue, around
 from autograder.checking import advice, shell
 from autograder.checking.calling import Learner
@@ -93,6 +93,8 @@ def exercises() -> Catalogue:
 def _show(exercise: Exercise, f: Callable[..., Any], verdict: Verdict, learner: Learner) -> None:
     shown = card.of(verdict, notes=learner.notes())
     more = [advice.whose_numbers(personal.student_here())] if exercise.personal else []
+    if verdict.fraction > 0.0:
+        more += advice.not_there(exercise, uses.modules(f))
     stale = shell.failure_of(exercise.id)
     if stale is not None:
         more.append(advice.older_version(exercise.id, stale))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +19,8 @@ from autograder.messages import say
 if TYPE_CHECKING:
     from autograder.checking.calling import Learner
 
+OFFERED = ("numpy", "plotly")  # packages that every exercise notebook finds where marks are given
+ALWAYS = ("IPython", "autograder", "directrix")
 Part = tuple[str, str]
 Parts = tuple[Part, ...]
 
@@ -75,6 +79,19 @@ def whose_numbers(student: str) -> Part:
     if student:
         return say("part.own_numbers"), say("check.own_numbers", student=student)
     return say("part.all_numbers"), say("check.all_numbers")
+
+
+def not_there(exercise: Exercise, used: Sequence[str]) -> Parts:
+    """Warnings of what a function uses and will not find where marks are given, from the names of the modules it uses."""
+    there = (*OFFERED, *exercise.allow)
+    own = [name for name in used if name.partition(".")[0] == "directrix" and name.split(".")[1:2] != ["plot"]]
+    others = {name.partition(".")[0] for name in used if _installed(name)} - {*there, *ALWAYS}
+    told = []
+    if own:
+        told.append((say("part.careful"), say("check.not_there.library", names=_listed(own))))
+    if others:
+        told.append((say("part.careful"), say("check.not_there", names=_listed(sorted(others)), there=", ".join(there))))
+    return tuple(told)
 
 
 def interrupted(exercise: Exercise, learner: Learner) -> Card:
@@ -143,6 +160,16 @@ def _near(name: str, among: list[str]) -> list[str]:
     """Names like this one: misspelt, or in other capitals."""
     folded = {one.lower(): one for one in among}
     return [folded[key] for key in difflib.get_close_matches(name.lower(), list(folded), n=3, cutoff=0.6)]
+
+
+def _installed(module: str) -> bool:
+    """Whether it is of an installed package: not of Python itself, and no file beside the notebook."""
+    file = getattr(sys.modules.get(module.partition(".")[0]), "__file__", None) or ""
+    return bool({"site-packages", "dist-packages"} & set(Path(file).parts))
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names)
 
 
 def _or(names: list[str]) -> str:

@@ -105,6 +105,14 @@ SHOWN: dict[str, str] = {
     # --- check: whose numbers, what was stopped, what the function takes
     "check.own_numbers": "Some of these data are those of {student}: somebody else has others.",
     "check.all_numbers": "These data are the same for all. For your own, type your id in the cell that asks for it.",
+    "check.not_there": (
+        "Your function uses {names}. While the grader runs it, only {there} and what comes with Python itself can be imported, "
+        "unless your instructor said otherwise."
+    ),
+    "check.not_there.library": (
+        "Your function uses the reference library, {names}. That is withheld where marks are given: there it stops with an "
+        "error."
+    ),
     "check.interrupted": "`{id}` was stopped by you in its call number {calls}.",
     "check.interrupted.look": "Is there a loop that cannot end, or one that does the same work for every point?",
     "check.signature": "Your function does not take the arguments of the task. {said}",

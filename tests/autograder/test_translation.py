@@ -190,6 +190,7 @@ def cards_of_check():
     yield advice.missing("cylindr", None, known, {})
     yield advice.missing("cylinder", None, known, {"cylnder": named("cylnder")})
     more = [advice.older_version("cylinder", slip), advice.whose_numbers("ada"), advice.whose_numbers("")]
+    more += advice.not_there(cylinder, ["scipy.special", "directrix.Sphere"])
     yield card.with_parts(card.Card("passed", "cylinder", ()), more)
     yield advice.interrupted(cylinder, Learner(named("cylinder")))
     for f in (
@@ -203,7 +204,7 @@ def cards_of_check():
 FROM_ELSEWHERE = (
     "def cylinder(u:", "'(' was never closed", "inconsistent", "expected colon", "x = nowhere", "nowhere", "SyntaxError",
     "TabError", "NameError", "ada", "zzz", "zzzzz", "cilinder", "cylindr", "cylnder", "hh", "def", "check", "float", "radius",
-    "NotImplementedError", "line",
+    "NotImplementedError", "line", "scipy", "directrix.Sphere", "numpy", "plotly",
 )  # fmt: skip
 
 

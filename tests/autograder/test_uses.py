@@ -50,6 +50,31 @@ def test_a_hostile_text_is_only_read():
         assert uses.in_text([text], "patch", WANTED) in ((), ("basis",))
 
 
+def test_modules_of_a_function_at_hand():
+    """Imported in it or above it, as a module or name by name, in a helper too; its own notebook is none."""
+    names: dict = {"__name__": "__main__"}
+    exec(
+        "import math, numpy as np, scipy.special\nfrom scipy.linalg import inv\nfrom directrix import plot\n"
+        "def plain(u): return u\n"
+        "def lists(u): return np.sin(u)\n"
+        "def inside(u):\n    import os.path\n    from scipy import stats\n    from directrix import Sphere, plot\n"
+        "def helper(u): return inv(u)\n"
+        "def through(u): return math.sin(helper(u)), plot\n"
+        "again = np.vectorize(lambda u: again(u) + scipy.special.comb(u, 2))\n",
+        names,
+    )
+    assert uses.modules(names["plain"]) == ()
+    assert uses.modules(names["lists"]) == ("numpy",)
+    assert uses.modules(names["inside"]) == ("directrix.Sphere", "directrix.plot", "os.path", "scipy.stats")
+    assert uses.modules(names["through"]) == ("directrix.plot", "math", inv_home(names))
+    assert "scipy" in uses.modules(names["again"])
+    assert uses.modules(len) == ("builtins",)
+
+
+def inv_home(names):
+    return names["inv"].__module__
+
+
 def test_globals_of_a_function_at_hand():
     """In a kernel the function is there, with its helpers; attributes and locals are none of its globals."""
     names: dict = {"np": np}

@@ -9,7 +9,10 @@ import numpy as np
 import pytest
 
 from autograder import check, judge_function
+from autograder.catalogue import shipped
+from autograder.checking import advice
 from autograder.errors import CheckFailed, CourseError, ExerciseError
+from autograder.notebook import session
 
 
 def right(u, w, r, h):
@@ -33,6 +36,32 @@ def test_a_right_answer_returns_the_points_as_a_plain_float(capsys):
     out, err = capsys.readouterr()
     assert out.startswith("[✓ Right] Cylinder from its known form")
     assert err == ""
+
+
+def test_what_will_not_be_there_where_marks_are_given_is_told_before(capsys):
+    """A function that is right with another package, or with the library itself, would earn nothing there."""
+    with_scipy, with_library = (
+        define(f"def cylinder(u, w, r, h):\n    {line}\n    return right(u, w, r, h)")
+        for line in ("from scipy.special import comb", "import directrix as dx")
+    )
+    assert check(with_scipy) == check(with_library) == 4.0
+    first, second = capsys.readouterr().out.split("[✓ Right]")[1:]
+    assert "uses scipy. While the grader runs it, only numpy, plotly and what comes with Python" in first
+    assert "uses the reference library, directrix." in second
+    check(define("def cylinder(u, w, r, h):\n    import math\n    return right(u, w, r, h)"))
+    assert "Careful" not in capsys.readouterr().out
+    exercise = shipped().find("same_surface")
+    assert advice.not_there(exercise, ["scipy.spatial", "numpy.linalg", "directrix.plot", "__main__", "math"]) == ()
+
+
+def test_the_packages_named_are_those_of_the_sandbox():
+    assert set(session.BASIC) == set(advice.OFFERED)
+
+
+def define(text):
+    names = {"right": right, "__name__": "__main__"}
+    exec(text, names)
+    return names["cylinder"]
 
 
 def test_a_known_slip_returns_a_share_and_names_it(capsys):
