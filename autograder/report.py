@@ -233,9 +233,10 @@ def _class(found: tuple[Part, ...]) -> Table:
 
 def _footer(graded: GradeReport) -> str:
     done = sum(student.status == "graded" for student in graded.students)
+    took = f" in {graded.seconds:.1f} s" if graded.seconds > 0 else ""
     speed = f", {done / graded.seconds:.1f} a second" if done and graded.seconds > 0 else ""
     sandbox = f"; sandbox level {graded.level}" if graded.level else ""
-    return f"{done} graded in {graded.seconds:.1f} s{speed}{sandbox}; '?' waits for a person"
+    return f"{done} graded{took}{speed}{sandbox}; '?' waits for a person"
 
 
 def plain(text: str) -> str:

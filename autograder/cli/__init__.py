@@ -57,7 +57,7 @@ def everywhere(
 
 VERBS: tuple[Callable[..., None], ...] = (
     course.demo, course.new, course.release, course.lab, grading.check, collecting.collect,
-    grading.grade, grading.feedback, reading.similar, reading.marks, reading.export, machine.doctor,
+    grading.grade, grading.feedback, reading.report, reading.similar, reading.marks, reading.export, machine.doctor,
 )  # fmt: skip
 for verb in VERBS:
     app.command(help=paragraphs(verb))(verb)

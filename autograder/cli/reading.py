@@ -1,4 +1,4 @@
-"""``directrix similar``, ``marks`` and ``export``: they read a course and change nothing in it."""
+"""``directrix report``, ``similar``, ``marks`` and ``export``: they read a course and change nothing in it."""
 
 from __future__ import annotations
 
@@ -14,6 +14,26 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from autograder.gradebook.export import Sheet
+
+
+def report(
+    assignment: Annotated[str, typer.Argument(help="A graded assignment, for example A1.")],
+    course: CourseOption = Path(),
+    as_json: AsJson = False,
+) -> None:
+    """Show the class as it stands: every student's marks, what the class found hard, and which mistakes were made how often.
+
+    It is the table of `directrix grade` with the marks that are in the gradebook now, those by hand too. Nothing is graded.
+
+    Example: directrix report A1
+    """
+    from autograder import fleet
+    from autograder import report as reports
+
+    standing = fleet.standing(opened(course), assignment)
+    reports.show(standing, console_for(as_json))
+    if as_json:
+        print(json.dumps(reports.summary(standing), allow_nan=False))
 
 
 def similar(

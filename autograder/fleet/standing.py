@@ -5,8 +5,43 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 
-from autograder.fleet.result import StudentReport
+from autograder.course import Course
+from autograder.fleet.journal import Journal
+from autograder.fleet.result import GradeReport, StudentReport
+from autograder.fleet.spool import Spool
 from autograder.gradebook import AssignmentRow, Gradebook, Standing
+
+BATCH = 50
+
+
+def standing(course: Course, assignment: str) -> GradeReport:
+    """The class as it stands: what was graded, with the marks that are in the gradebook now. Nothing is graded or changed.
+
+    A submission that is there and was not graded has the status "failed", and no faults.
+
+    Raises
+    ------
+    CourseError
+        If the assignment is not in the gradebook.
+    """
+    with course.gradebook() as book:
+        row, journal = book.assignment(assignment), Journal(course.room, assignment)
+        done = set(course.students("autograded", assignment))
+        students = sorted(done.union(course.students("submitted", assignment)))
+        found, level, posed = Spool(course.room), "", set[str]()
+        for start in range(0, len(students), BATCH):
+            entries = {student: journal.read(student) for student in students[start : start + BATCH]}
+            reports = []
+            for student, entry in entries.items():
+                report = entry.report if entry is not None and student in done else StudentReport(student, "graded")
+                reports.append(dataclasses.replace(report, status="graded" if student in done else "failed"))
+                level = entry.level if entry is not None else level
+                posed.update(cell.exercise for cell in report.cells if cell.exercise)
+            for report in current(book, row, reports):
+                found.add(report)
+    titles = {name: exercise.title for name in posed if (exercise := course.exercise(name)) is not None}
+    name = course.id or course.folder.name
+    return GradeReport(name, assignment, level, found, 0.0, available(row), titles)
 
 
 def available(row: AssignmentRow) -> float:

@@ -48,6 +48,7 @@ def test_every_verb_has_help_with_an_example(verb, tmp_path):
         (["grade", "A1", "--level", "B"], 2, "notebooks are run at level A or A- only"),
         (["grade", "A1", "--workers", "-1"], 2, "greater than or equal to 0"),
         (["export", "A1"], 1, "nbgrader_config.py"),
+        (["report", "A1"], 1, "nbgrader_config.py"),
         (["feedback", "A1"], 1, "nbgrader_config.py"),
         (["release", "A1"], 1, "is not a course"),
         (["author", "check", "nowhere"], 1, "no such folder: nowhere"),
