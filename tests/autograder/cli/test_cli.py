@@ -15,7 +15,21 @@ from autograder import authoring, catalogue
 from autograder.cli.course import lab
 from autograder.notebook import source
 
-VERBS = ["demo", "new", "release", "lab", "check", "collect", "grade", "feedback", "similar", "marks", "export", "doctor"]
+VERBS = [
+    "demo",
+    "new",
+    "release",
+    "lab",
+    "check",
+    "collect",
+    "grade",
+    "feedback",
+    "report",
+    "similar",
+    "marks",
+    "export",
+    "doctor",
+]
 
 
 def directrix(*arguments, cwd):
