@@ -2,6 +2,7 @@
 
 import itertools
 
+import numpy as np
 import pytest
 
 from autograder.authoring import rules
@@ -19,6 +20,33 @@ def test_every_exercise_keeps_every_rule(exercise, rule):
     """Each mistake is seen, told from the others and named; the reference passes; the stub and zeros score nothing..."""
     asked = {**rules.RULES, **rules.ADVICE}[rule]
     assert list(asked(exercise, SEEDS.get(rule, rules.SEEDS))) == []
+
+
+@each_exercise
+def test_every_reference_takes_lists_for_arrays(exercise):
+    """Whoever tries one out writes a net as it is printed."""
+    places = [0.25, 0.5, 0.75][: len(exercise.parameters)]
+    for drawn in exercise.draw(1):
+        given = list(drawn.arguments.values())
+        answer = asked(exercise, *places, *given)
+        assert same(asked(exercise, *places, *map(written, given)), answer), drawn.name
+
+
+def asked(exercise, *arguments):
+    try:
+        return exercise(*arguments)
+    except ValueError:
+        return "refused"
+
+
+def written(value):
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def same(one, other):
+    if isinstance(one, tuple):
+        return all(map(np.array_equal, one, other))
+    return np.array_equal(one, other)
 
 
 @pytest.mark.parametrize("assignment", shipped().assignments, ids=lambda assignment: assignment.name)

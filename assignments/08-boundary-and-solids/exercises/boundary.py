@@ -341,6 +341,7 @@ def coons_twists(G):
 
 def _twists(G, pu=None, pw=None):
     """The twists of the two ruled surfaces and of the bilinear one; shapes (1, 2, 3), (2, 1, 3) and (3,)."""
+    G = np.asarray(G, dtype=float)
     p = G[:2, :2]
     pu = G[2:, :2] if pu is None else pu
     pw = G[:2, 2:] if pw is None else pw

@@ -348,6 +348,7 @@ def _(c0, c1, d0, d1, elevate_u):
 
 def _parts(c0, c1, d0, d1, s=None, t=None):
     """Nets of the ruled surface from c0 to c1, of the one from d0 to d1, and of the bilinear surface of the corners."""
+    c0, c1, d0, d1 = (np.asarray(points, dtype=float) for points in (c0, c1, d0, d1))
     s = np.linspace(0, 1, len(c0))[:, None, None] if s is None else s
     t = np.linspace(0, 1, len(d0))[None, :, None] if t is None else t
     across_w = (1 - t) * c0[:, None] + t * c1[:, None]

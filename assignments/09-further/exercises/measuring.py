@@ -261,6 +261,7 @@ def fmill_tangents(P):
 
 def _along(P, length=np.minimum):
     """Tangents along the first axis; ``length`` makes one length of the two distances."""
+    P = np.asarray(P, dtype=float)
     before, after = P[1:-1] - P[:-2], P[2:] - P[1:-1]
     chord = P[2:] - P[:-2]
     tangents = np.zeros(P.shape)
