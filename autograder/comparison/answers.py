@@ -1,7 +1,8 @@
 """What a function gave back, read once: an array of numbers, a word, a tuple, or the reason why it is none of these.
 
-Anything that ``np.asarray(x, float)`` takes is an array: lists, integers, float32, booleans. What it takes by accident (text
-that looks like numbers) or with a loss (complex numbers) is not.
+Anything that ``np.asarray(x, float)`` takes is an array: lists, integers, float32, booleans, fractions. What it takes by
+accident (text that looks like numbers) or with a loss (complex numbers, masked arrays) is not. :mod:`autograder.returned`
+makes it plain first, here or in the sandbox, so an answer is read in the same way wherever it comes from.
 """
 
 from __future__ import annotations
@@ -15,10 +16,10 @@ from numpy.typing import NDArray
 
 from autograder.errors import CallFailed, FailureKind, SandboxError
 from autograder.messages import say
+from autograder.returned import MOST_VALUES, Foreign, plainly
 
 Array: TypeAlias = NDArray[np.float64]
-Reason = Literal["none", "complex", "text", "ragged", "parts", "function", "object"]
-MOST_VALUES = 4_000_000
+Reason = Literal["none", "complex", "text", "ragged", "parts", "function", "masked", "object"]
 
 
 @dataclass(frozen=True)
@@ -130,46 +131,46 @@ def read(value: Any, *, whole: bool = True) -> Answer:
 
     Unless one ``whole`` array is wanted, a tuple, or a list of unlike elements, is taken apart.
     """
+    value = plainly(value)
     if value is None:
         return Unreadable("none")
     if isinstance(value, str):
         return Word(value)
-    if callable(value):
+    if isinstance(value, Foreign):
+        return _foreign(value)
+    if callable(value):  # a curve or surface that it was given
         return Unreadable("function", {"type": type(value).__name__})
     if isinstance(value, tuple) and not whole:
         return Several(tuple(read(item) for item in value))
     try:
         array = np.asarray(value)
-        if array.dtype.kind == "O" and isinstance(value, list) and not whole:
-            return Several(tuple(read(item) for item in value))
-    except Exception:  # ragged lists raise ValueError; an object's own __array__ may raise anything
-        if isinstance(value, list) and not whole:
-            return Several(tuple(read(item) for item in value))
-        return _pieces(value)
+    except ValueError:  # rows of unequal lengths
+        array = np.empty(0, dtype=object)
     if array.dtype.kind in "biuf":
-        if array.size > MOST_VALUES:
-            return Unreadable("object", {"type": say("told.large", count=array.size, most=MOST_VALUES)})
         was = {"b": "bool", "i": "int", "u": "int", "f": "float"}[array.dtype.kind]
         return Numbers(np.array(array, dtype=float), was)
     if array.dtype.kind == "c":
         return Unreadable("complex")
     if array.dtype.kind in "SU":
         return Unreadable("text", {"text": repr(str(array.flat[0]) if array.size else "")[:40]})
-    if array.dtype.kind == "O" and array.size:
-        try:
-            if not any(item is None for item in array.flat):  # NumPy would make it NaN
-                return Numbers(np.array(array.tolist(), dtype=float))
-        except (TypeError, ValueError):
-            return _pieces(value)
+    if isinstance(value, list) and not whole:
+        return Several(tuple(read(item) for item in value))
     return _pieces(value)
 
 
+def _foreign(value: Foreign) -> Unreadable:
+    if value.kind == "large":
+        return Unreadable("object", {"type": say("told.large", count=value.text, most=MOST_VALUES)})
+    reason: Reason = "function" if value.kind == "function" else "masked" if value.kind == "masked" else "object"
+    return Unreadable(reason, {"type": value.text})
+
+
 def _pieces(value: Any) -> Unreadable:
-    """Why a list, tuple or object array is no array of numbers."""
-    items = list(value) if isinstance(value, list | tuple | np.ndarray) and np.ndim(_plain(value)) else []
+    """Why a list or tuple is no array of numbers."""
+    items = list(value)
     shapes = []
     for item in items[:4]:
-        inner = read(item) if not isinstance(item, list | tuple) or len(item) < 10_000 else Unreadable("ragged")
+        inner = read(item)
         if not isinstance(inner, Numbers):
             break
         shapes.append(inner.values.shape)
@@ -178,9 +179,5 @@ def _pieces(value: Any) -> Unreadable:
         return Unreadable("parts", {"parts": names})
     if shapes and len(shapes) == min(len(items), 4):
         return Unreadable("ragged", {"first": str(shapes[0]), "other": str(next((s for s in shapes if s != shapes[0]), ""))})
-    return Unreadable("object", {"type": type(items[len(shapes)] if items else value).__name__})
-
-
-def _plain(value: Any) -> Any:
-    """A list's first level only, so that its number of dimensions can be asked."""
-    return value if isinstance(value, np.ndarray) else [0] * len(value)
+    other = items[len(shapes)]
+    return _foreign(other) if isinstance(other, Foreign) else Unreadable("object", {"type": type(other).__name__})

@@ -329,6 +329,7 @@ JUDGED: dict[str, str] = {
     "answer.parts": "Your function returned its coordinates one by one, and their shapes differ: {parts}.",
     "answer.pieces": "Your function returned several pieces of different shapes; wanted is one array of shape {wanted}.",
     "answer.function": "Your function returned a {type}, not what comes out of calling it.",
+    "answer.masked": "Your function returned a masked array, some values of which are hidden; wanted is an array of numbers.",
     "answer.object": "Your function returned {type}; wanted is an array of numbers.",
     "answer.no_surface": "Your answer cannot be turned into a {noun}: {message}",
     "look.none": "Is the line with return missing, or is it inside an if or a loop that was not reached?",
@@ -338,6 +339,7 @@ JUDGED: dict[str, str] = {
     "look.parts": "Bring them to one shape (np.broadcast_arrays), then np.stack([x, y, z], axis=-1).",
     "look.pieces": "Join them: np.concatenate or np.append for numbers behind one another, np.stack for rows of one length.",
     "look.function": "Are the brackets of a call missing?",
+    "look.masked": "Return a plain array, every value defined: np.where(condition, one, other) chooses between two formulas.",
     "look.object": "Return one array: np.stack([x, y, z], axis=-1) for points.",
     # --- gates: shapes
     "shape.some": "It does not handle {given} for {names}.",

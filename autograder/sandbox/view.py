@@ -123,7 +123,7 @@ def _packages(view: View, policy: Policy) -> None:
 def _guest(view: View) -> None:
     """Stand-ins for autograder and directrix, with the few real files that running a notebook takes."""
     view.bind(HERE / "guest" / "stand_in_autograder.py", "/guest/autograder/__init__.py")
-    for name in ("curvedata.py", "personal.py"):
+    for name in ("curvedata.py", "personal.py", "returned.py"):
         view.bind(AUTOGRADER / name, f"/guest/autograder/{name}")
     for name in ("__init__.py", "wire.py", "system.py", "guest"):
         view.bind(HERE / name, f"/guest/autograder/sandbox/{name}")

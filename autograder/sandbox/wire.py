@@ -6,8 +6,8 @@ file runs on both sides.
 
     frame   kind (1 byte), length of the body (4), id of the exchange (16), body
     body    one value
-    value   N | T | F | i int64 | d float64 | s length utf-8 | b length bytes | t count values
-            | a dtype ndim shape data | c array array | p array
+    value   N | T | F | i int64 | d float64 | s length utf-8 | b length bytes | t count values | l count values
+            | a dtype ndim shape data | c array array | p array | x s s
 """
 
 from __future__ import annotations
@@ -20,8 +20,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from autograder.curvedata import CurveData, SurfaceData
+from autograder.returned import DEPTH as DEPTH
+from autograder.returned import DIMENSIONS, Foreign
 
-Value: TypeAlias = "bool | int | float | str | bytes | NDArray[Any] | CurveData | SurfaceData | tuple[Value, ...] | None"
+Value: TypeAlias = (
+    "bool | int | float | str | bytes | NDArray[Any] | CurveData | SurfaceData | Foreign | tuple[Value, ...] | Values | None"
+)
+Values: TypeAlias = "list[Value]"
 
 HEADER = struct.Struct("<BI16s")
 LINK_LOST = 71  # exit code of a child that finds its socket closed by the code it runs
@@ -33,9 +38,7 @@ KINDS = frozenset({START, CELL, CALL, FILES, SERVE, APART, CALLS, DONE})
 PEER_CALL, NAME, END, REPLY = 97, 98, 99, 100  # between two notebooks' processes; never taken by the trusted side
 PEER_KINDS = frozenset({PEER_CALL, NAME, END, REPLY})
 
-DEPTH = 4
 ITEMS = 100_000
-MAX_DIMENSIONS = 8
 DTYPES = {"f4": "<f4", "f8": "<f8", "i4": "<i4", "i8": "<i8", "u1": "|u1", "b1": "|b1", "c8": "<c8", "c16": "<c16"}
 CODES = {np.dtype(text): code for code, text in enumerate(DTYPES.values())}
 BY_CODE = {code: dtype for dtype, code in CODES.items()}
@@ -66,6 +69,11 @@ def header(data: bytes, limit: int, kinds: frozenset[int] = KINDS) -> tuple[int,
     if length > limit:
         raise WireError(f"a frame of {length} bytes; at most {limit} are taken")
     return kind, length, exchange
+
+
+def count(value: Any) -> int:
+    """How many values a value consists of, itself included; no more than :data:`ITEMS` are read."""
+    return 1 + sum(map(count, value)) if isinstance(value, tuple | list) else 1
 
 
 def encode(value: Any, *, depth: int = DEPTH) -> bytes:
@@ -124,10 +132,14 @@ def _write(value: Any, parts: list[bytes], depth: int) -> None:
     elif isinstance(value, SurfaceData):
         parts.append(b"p")
         _write_array(value.coefficients, parts)
-    elif isinstance(value, tuple):
+    elif isinstance(value, Foreign):
+        parts.append(b"x")
+        _write(value.kind, parts, depth)
+        _write(value.text, parts, depth)
+    elif isinstance(value, tuple | list):
         if depth < 1:
             raise WireError("tuples nested too deeply")
-        parts += [b"t", LENGTH.pack(len(value))]
+        parts += [b"t" if isinstance(value, tuple) else b"l", LENGTH.pack(len(value))]
         for item in value:
             _write(item, parts, depth - 1)
     else:
@@ -142,8 +154,8 @@ def _write_array(array: NDArray[Any], parts: list[bytes]) -> None:
         if wider is None:
             raise WireError(f"an array of dtype {plain.dtype}")
         plain = plain.astype(wider)
-    if plain.ndim > MAX_DIMENSIONS:
-        raise WireError(f"an array of {plain.ndim} dimensions; at most {MAX_DIMENSIONS} can be sent")
+    if plain.ndim > DIMENSIONS:
+        raise WireError(f"an array of {plain.ndim} dimensions; at most {DIMENSIONS} can be sent")
     parts += [b"a", ARRAY.pack(CODES[plain.dtype], plain.ndim), *map(DIMENSION.pack, plain.shape), plain.tobytes()]
 
 
@@ -181,7 +193,11 @@ class _Reader:
         if tag == b"p":
             return SurfaceData(self.member())
         if tag == b"t":
+            return tuple(self.members(depth))
+        if tag == b"l":
             return self.members(depth)
+        if tag == b"x":
+            return Foreign(self.text(), self.text())
         raise WireError(f"unknown kind of value: {tag!r}")
 
     def block(self) -> bytes:
@@ -195,15 +211,20 @@ class _Reader:
             raise WireError("curves and surfaces consist of float64 arrays")
         return array
 
-    def members(self, depth: int) -> tuple[Any, ...]:
+    def text(self) -> str:
+        if self.take(1) != b"s":
+            raise WireError("what cannot cross is told by two texts")
+        return self.block().decode("utf-8", "replace")
+
+    def members(self, depth: int) -> list[Any]:
         count = LENGTH.unpack(self.take(LENGTH.size))[0]
         if depth < 1 or count > len(self.body) - self.at:  # every value takes at least one byte
             raise WireError("tuples nested too deeply, or more values announced than there are bytes")
-        return tuple([self.value(depth - 1) for _ in range(count)])
+        return [self.value(depth - 1) for _ in range(count)]
 
     def array(self) -> NDArray[Any]:
         code, dimensions = ARRAY.unpack(self.take(ARRAY.size))
-        if code not in BY_CODE or dimensions > MAX_DIMENSIONS:
+        if code not in BY_CODE or dimensions > DIMENSIONS:
             raise WireError(f"an array of dtype code {code} and {dimensions} dimensions")
         shape = [DIMENSION.unpack(self.take(DIMENSION.size))[0] for _ in range(dimensions)]
         if any(length < 0 or length > 2**31 for length in shape):

@@ -21,6 +21,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from autograder.returned import plainly
 from autograder.sandbox import wire
 from autograder.sandbox.guest import answers, confine
 from autograder.sandbox.guest.answers import TimeLimitExceeded
@@ -138,7 +139,9 @@ class Server:
             function = answers.find(self.shell.user_ns, name)
             with _timed(cpu, wall):
                 value = function(*arguments)
-            answer = (True, answers.plain(value))
+            answer = (True, plainly(value))
+            if (count := wire.count(answer)) > wire.ITEMS:
+                raise answers.Refused(f"the answer has {count} parts; at most {wire.ITEMS} are taken")
             size = len(wire.encode(answer, depth=wire.DEPTH + 1))
             if size > limit:
                 raise answers.Refused(f"the answer has {size} bytes; at most {limit} are taken")

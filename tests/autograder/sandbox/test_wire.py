@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from autograder.curvedata import CurveData, SurfaceData
+from autograder.returned import KINDS, Foreign
 from autograder.sandbox import wire
 from autograder.sandbox.wire import WireError, decode, encode
 
@@ -25,19 +26,26 @@ PLAIN = st.one_of(
 ARRAYS = st.sampled_from(DTYPES).flatmap(
     lambda dtype: arrays.arrays(dtype, arrays.array_shapes(min_dims=0, max_dims=8, min_side=0, max_side=3))
 )
+FOREIGN = st.builds(Foreign, st.sampled_from(KINDS), st.text(st.characters(exclude_categories=("Cs",)), max_size=120))
 
 
 def same(left, right):
     """Equal in type and value; arrays bit by bit."""
     if isinstance(left, np.ndarray):
         return left.dtype == right.dtype and left.shape == right.shape and left.tobytes() == right.tobytes()
-    if isinstance(left, tuple):
-        return isinstance(right, tuple) and len(left) == len(right) and all(map(same, left, right))
+    if isinstance(left, tuple | list):
+        return type(right) is type(left) and len(left) == len(right) and all(map(same, left, right))
     return type(left) is type(right) and left == right
 
 
 @settings(max_examples=150, deadline=None)
-@given(st.recursive(PLAIN | ARRAYS, lambda inner: st.lists(inner, max_size=4).map(tuple), max_leaves=8))
+@given(
+    st.recursive(
+        PLAIN | ARRAYS | FOREIGN,
+        lambda inner: st.lists(inner, max_size=4) | st.lists(inner, max_size=4).map(tuple),
+        max_leaves=8,
+    )
+)
 def test_every_value_comes_back_as_it_was(value):
     assert same(decode(encode(value, depth=20), depth=20), value)
 
@@ -91,7 +99,7 @@ def test_arrays_that_arrive_cannot_be_made_writable():
         ({}, "dict"),
         (np.array([None]), "object"),
         (((((1,),),),), "nested"),
-        (np.zeros((1,) * 9), "9 dim"),
+        (np.zeros((1,) * 33), "33 dim"),
         (np.array("x"), "U1"),
     ],
 )
@@ -124,7 +132,9 @@ HOSTILE = {
     "shape whose product overflows": array_frame(shape=(2**31, 2**31, 2**31)),
     "shape of the largest integers": array_frame(shape=(2**63 - 1, 2)),
     "more than the body holds": array_frame(shape=(10**9,)),
-    "nine dimensions": array_frame(shape=(1,) * 9),
+    "33 dimensions": array_frame(shape=(1,) * 33),
+    "a kind of thing that there is not": b"x" + encode("forged") + encode("dict"),
+    "a thing told by a number": b"x" + encode("object") + encode(1),
     "255 dimensions": b"a\x01\xff",
     "unknown dtype": array_frame(code=99),
     "boolean 2": array_frame(code=5, shape=(1,), data=b"\x02"),
