@@ -105,7 +105,7 @@ def error_gate(failure: Raised) -> Gate:
         return Gate("error", "error.writes", facts)
     if failure.is_a("TypeError") and ("positional argument" in failure.message or "required positional" in failure.message):
         return Gate("error", "error.signature", facts)
-    for name in ("RecursionError", "NameError", "SystemExit", "ZeroDivisionError", "AxisError", "IndexError"):
+    for name in ("RecursionError", "NameError", "ImportError", "SystemExit", "ZeroDivisionError", "AxisError", "IndexError"):
         if failure.is_a(name):
             return Gate("error", f"error.{name}", facts)
     return Gate("error", "error.exception", facts)

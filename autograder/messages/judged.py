@@ -294,6 +294,7 @@ JUDGED: dict[str, str] = {
     "error.signature": "Your function does not take the arguments of {signature}: {message}",
     "error.RecursionError": "Your function calls itself without end.",
     "error.NameError": "Your function uses a name that is not defined: {message}",
+    "error.ImportError": "Your function stopped at an import: {message}",
     "error.SystemExit": "Your function ends the program (exit or quit) where it should return an answer.",
     "error.ZeroDivisionError": "Your function divides by zero.",
     "error.AxisError": "Your function asks for an axis that its array does not have: {message}",
@@ -315,6 +316,10 @@ JUDGED: dict[str, str] = {
     "look.died": "Look for exit(), or for a recursion that goes too deep.",
     "look.NameError": (
         "Was it defined in an earlier cell, and is it spelt the same? Names of one function are not known in another."
+    ),
+    "look.ImportError": (
+        "Where marks are given there are numpy, plotly and what comes with Python itself, and no more unless the task or your "
+        "instructor says so. Write it without."
     ),
     "look.RecursionError": "Look at the case in which it should stop calling itself.",
     "look.SystemExit": "End the function with return.",

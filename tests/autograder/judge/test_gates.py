@@ -1,5 +1,6 @@
 """The gates before any comparison: shapes, errors, finite numbers, point by point, repeatable; stubs, and our own failures."""
 
+import importlib
 import math
 
 import numpy as np
@@ -215,6 +216,17 @@ class TestGates:
         assert "asks for an axis that its array does not have: axis 7 is out of bounds" in message
         assert "Print the shape of that array" in message
         assert "Indices run" not in message
+
+    def test_a_package_that_is_not_there(self, tube):
+        """It may be there in the learner's own JupyterLab: what the grader has is told."""
+
+        def call(u, w, r, h):
+            return importlib.import_module("a_package_that_is_not_there")
+
+        verdict = judge(tube, call)
+        assert (verdict.tier, verdict.fraction) == ("error", 0.0)
+        assert verdict.part("wrong").startswith("Your function stopped at an import: No module named")
+        assert "numpy, plotly and what comes with Python itself" in verdict.part("look")
 
     def test_endless_recursion(self, tube):
         def call(u, w, r, h):
