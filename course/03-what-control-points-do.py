@@ -238,13 +238,13 @@ look = {"line": {"color": palette.MARK, "width": 4}, "marker": {"color": palette
 figure.data[-2].update(mode="lines+markers", **look)
 figure.data[-1].line.update(color=palette.W, width=9)
 figure.data[0].opacity = 0.75
-from_here(figure, 1.75, -0.1, 0.95)
+from_here(figure, 1.9, 0.35, 0.95)
 caption(figure, net=palette.NET, four_curves_along_u=palette.U, the_pearls=palette.MARK, their_curve_along_w=palette.W)
 figure
 
 # %% [markdown]
-# Here $u = 0.4$. **Look at the two inner blue curves**: they float above the patch. An inner column of the net makes a curve, but not
-# one *on* the surface, and no more does an inner row. The orange curve of the pearls lies on it, for every $u$.
+# Here $u = 0.4$. **Look at the two inner blue curves**: they float above the patch. An inner row or column of the net makes a curve, but
+# not one *on* the surface. The thick orange curve, that of the pearls, does lie on it, and so it is for every other $u$.
 #
 # Write it. `casteljau` of the whole net mixes whole rows of points, so it gives you all four pearls at once. One line.
 
@@ -509,6 +509,10 @@ figure.update_yaxes(scaleanchor="x", col=1).update_yaxes(scaleanchor="x2", col=2
 figure.update_layout(height=380, template="none", margin={"t": 40, "b": 50, "l": 50, "r": 20})
 
 # %% [markdown]
+# **What to see.** On the right twelve of the 36 squares: four spans along $w$, and three along $u$, where $P_{23}$ is near the edge. On
+# the left all of it. In the far corner that is less than a millionth, but no program may call it nothing.
+
+# %% [markdown]
 # ## 7 · When knots meet
 #
 # Where two spans meet, a cubic B-spline agrees in point, tangent and second derivative. Now push knots together. How often a knot occurs
@@ -682,7 +686,8 @@ for end in lower[::60]:
 figure.data[0].update(opacity=0.55, lighting=palette.FLAT)
 figure.data = (figure.data[0], *figure.data[5:])  # without the edges and letters of the cone
 from_here(figure, 1.3, 0.9, 0.6)
-caption(figure, before=palette.MARK, after_dividing=palette.CURVE, lifted_polygon=palette.NET, rays=palette.INK)
+words = {"before dividing": palette.MARK, "after": palette.CURVE, "lifted polygon": palette.NET, "rays": palette.INK}
+caption(figure, **words)
 reveal(upstairs, "a parabola")
 figure
 
@@ -756,7 +761,8 @@ figure
 # %% [markdown]
 # **What happened?** The equation of the circle does not ask for the sign of $h$. So it is the same circle, but now the *other three
 # quarters*, far outside the hull of the three points. The promises of section 2 all stood on shares between 0 and 1, together 1. With
-# a negative weight they are still together 1. They are no longer between 0 and 1: the hull goes, and with it everything built on it.
+# a negative weight they are still together 1, so affine invariance stays. They are no longer between 0 and 1: the hull goes, and
+# variation diminishing with it.
 #
 # At $h = -1$ the divisor is $(1 - 2t)^2$, and the point at $t = 1/2$ is at infinity. That is why weights must be above 0, here and in
 # most programs:
