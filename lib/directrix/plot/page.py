@@ -54,12 +54,14 @@ def fragment(figure: Mapping[str, Any] | Any) -> str:
     shown = {"data": plain.get("data", []), "layout": plain.get("layout", {}), "frames": plain.get("frames", [])}
     height = shown["layout"].get("height", 450)
     height = min(max(float(height), 100.0), 2000.0) if isinstance(height, int | float) else 450.0
+    panels = sum(name in shown["layout"] for name in ("scene", "scene2", "xaxis"))
+    wide = " wide" if panels > 1 else ""  # side by side they need room: a page may let them scroll on a narrow screen
     meta = shown["layout"].get("meta")
-    alt = str(meta.get("alt", "")) if isinstance(meta, Mapping) else ""
+    alt = html.escape(str(meta.get("alt", "")) if isinstance(meta, Mapping) else "", quote=True)
     # "<" never stands in JSON but inside a string, where its escape means the same.
     data = json.dumps(shown, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     return (
-        f'<div class="directrix-figure" role="img" aria-label="{html.escape(alt, quote=True)}" style="min-height:{height:g}px">'
+        f'<div class="directrix-figure{wide}" role="img" aria-label="{alt}" style="min-height:{height:g}px">'
         f'<script type="application/vnd.plotly.v1+json">{data}</script></div>'
     )
 

@@ -160,6 +160,35 @@ def test_no_script_of_a_learner_runs_and_nothing_is_fetched(hostile_page, chromi
             browser.close()
 
 
+@pytest.mark.browser
+def test_the_page_fits_a_phone(tmp_path, chromium):
+    """A long formula and a comparison of two scenes scroll within the page, which itself does not."""
+    from playwright.sync_api import sync_playwright
+
+    compared = {"data": [], "layout": {"scene": {}, "scene2": {}, "height": 300}}
+    output = {"output_type": "display_data", "metadata": {}, "data": {"application/vnd.plotly.v1+json": compared}}
+    cells = [
+        {"cell_type": "markdown", "metadata": {}, "source": "$$" + "+".join(f"x_{{{i}}}" for i in range(40)) + "$$"},
+        {
+            "cell_type": "code", "source": "1", "outputs": [output],
+            "metadata": {"nbgrader": {"grade_id": "a_part_with_a_long_name", "grade": True, "points": 3}},
+        },
+    ]  # fmt: skip
+    path = tmp_path / "page.html"
+    scored = {"a_part_with_a_long_name": Scored(None, 3.0, look=True)}
+    path.write_text(render({"cells": cells}, Sheet("nb", "A1", "ada", scored, {})), "utf-8")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        try:
+            page = browser.new_page(viewport={"width": 390, "height": 800})
+            page.goto(path.as_uri())
+            assert page.evaluate("document.querySelector('.directrix-figure').clientWidth") >= 570
+            assert page.evaluate("document.querySelector('math').scrollWidth") > 390
+            assert page.evaluate("document.documentElement.scrollWidth") == 390
+        finally:
+            browser.close()
+
+
 def test_the_page_says_the_marks_and_who_waits():
     cells = {"a": Scored(1.5, 2.0), "b": Scored(None, 3.0, look=True)}
     nb = {"cells": [{"cell_type": "markdown", "metadata": {"nbgrader": {"grade_id": "b"}}, "source": "my answer"}]}
@@ -196,7 +225,7 @@ def test_a_card_and_its_figure_are_on_the_page_and_json_cannot_leave_its_element
     (page,) = feedback.write(surfaces.course(), "A1")
     html = page.read_text()
     assert "Partly right" in html
-    assert html.count('<div class="directrix-figure"') >= 1
+    assert html.count('<div class="directrix-figure wide"') >= 1
     assert html.count("directrix-packed") == 2  # the packed scripts and what unpacks them, once
     assert html.split("<body>")[0].count("sha256-") == 2
     assert "cdn" not in html.split("<body>")[1]
