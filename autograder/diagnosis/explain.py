@@ -13,7 +13,7 @@ import numpy as np
 
 from autograder import messages
 from autograder.comparison import values as value_rungs
-from autograder.comparison.answers import Answer, Raised
+from autograder.comparison.answers import Answer, Numbers, Raised
 from autograder.comparison.gates import Gate, Trouble, error_gate
 from autograder.comparison.maps import Sampled, Shifted
 from autograder.comparison.sets import SetFinding
@@ -145,7 +145,8 @@ class Explanation:
     def contrast(self) -> Contrast | None:
         """What parts the data that are answered rightly from the others; a known mistake says it better."""
         vague = self.recognised is None and self.tier in ("different", "part", "more", "shape", "not finite", "error")
-        return contrast(self.shown) if vague else None
+        seeing = any(f.right and not f.target.drawn.blind for f in self.shown)  # blind data have special numbers anyway
+        return contrast(self.shown) if vague and seeing else None
 
     def _look_of_contrast(self) -> str | None:
         return of_data(self.contrast)[1] if self.contrast is not None else None
@@ -159,6 +160,7 @@ class Explanation:
             "signature": self.exercise.signature,
             "noun": self.noun,
             "names": listing(self.exercise.parameters),
+            "parameters": ", ".join(self.exercise.parameters),
             "data": named([finding.target.name]),
             "place": place(self._names(), gate.where) if gate.where is not None else "",
         }
@@ -184,7 +186,8 @@ class Explanation:
         else:
             key = self.troubles[0].key
             look = LOOKS.get(key) or _look_of(key, len(self._names())) or "look.shape"
-            parts.append(("look", say(look)))
+            names = self._names()
+            parts.append(("look", say(look, names=listing(names), parameters=", ".join(names))))
         return parts
 
     def _not_refused(self) -> Parts:
@@ -412,8 +415,7 @@ class Explanation:
                 *value_where(finding, data),
                 ("look", say("look.close")),
             ]
-        plain = "look.value_shape" if finding.tier == "shape" else "look.value"
-        look = self._look_of_contrast() or say(plain)
+        look = self._look_of_contrast() or say(_look_of_value(finding.tier, expected))
         told = sense_text(self.wrong)
         sense: Parts = [("wrong", told)] if told else []
         return [*parts, *value_wrong(finding, answer, expected), *sense, *value_where(finding, data), ("look", look)]
@@ -433,6 +435,13 @@ class Explanation:
 
     def _described(self, target: Target) -> str:
         return say("data.one", names=described(target))
+
+
+def _look_of_value(tier: Tier, expected: Answer | None) -> str:
+    """The look-text of a value that is not right."""
+    if tier != "shape":
+        return "look.value"
+    return "look.value_number" if isinstance(expected, Numbers) and expected.values.ndim == 0 else "look.value_shape"
 
 
 def _look_of(key: str, dimension: int) -> str | None:

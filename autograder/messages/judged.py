@@ -251,6 +251,7 @@ JUDGED: dict[str, str] = {
         "It works for the numbers you see. Which numbers could come that you have not tried (signs, lengths, orders)?"
     ),
     "look.value_shape": "Print the shape of your answer for this data set: which axis is which in the statement?",
+    "look.value_number": "The answer is a single number: is a sum, a mean or an index missing?",
     "look.value": "Work this data set out by hand and compare.",
     "look.empty": "A remark, no marks lost: empty arrays of parameters should give an empty array of shape {wanted}.",
     # --- values
@@ -367,9 +368,9 @@ JUDGED: dict[str, str] = {
     "shape.unreadable": "With {given} for {names} its answer is not an array of numbers.",
     "shape.other": "With {given} for {names} it returns shape {got}; wanted is {wanted}.",
     "look.coordinates_first": "The three coordinates belong on the last axis: np.stack([x, y, z], axis=-1).",
-    "look.own_mesh": "Do not make a mesh inside: take u and w as they come, element by element.",
-    "look.mesh_transposed": "Let u and w broadcast (np.broadcast_arrays(u, w)); do not turn the axes.",
-    "look.shape": "Begin with u, w = np.broadcast_arrays(u, w), then every coordinate gets the same shape.",
+    "look.own_mesh": "Do not make a mesh inside: take {names} as they come, element by element.",
+    "look.mesh_transposed": "Let {names} broadcast (np.broadcast_arrays({parameters})); do not turn the axes.",
+    "look.shape": "Begin with {parameters} = np.broadcast_arrays({parameters}), then every coordinate gets the same shape.",
     "look.shape.coordinates": "Count what goes into np.stack([x, y, z], axis=-1): one array for each coordinate.",
     "look.shape_curve": "Use NumPy operations on the whole array (np.cos, not math.cos), then np.stack([x, y, z], axis=-1).",
     "look.numbers_only": "It handles single numbers only: use NumPy functions (np.cos, not math.cos), which take whole arrays.",

@@ -86,6 +86,41 @@ class TestShapes:
             assert "np.stack" not in message
             assert "number a point" not in message
 
+    def test_what_to_begin_with_names_the_parameters_of_the_exercise(self, tube):
+        flat = judge(tube, lambda *a: np.reshape(right(*a), (-1, 3))).message
+        assert "Begin with u, w = np.broadcast_arrays(u, w)" in flat
+
+        @exercise(points=1, title="Cube", kind="solid")
+        def cube(u, v, w):
+            """Return (u, v, w)."""
+            return stack(u, v, w)
+
+        cube.data(lambda rng: {})
+        flat = judge(cube, lambda u, v, w: np.reshape(stack(u, v, w), (-1, 3))).message
+        assert "Begin with u, v, w = np.broadcast_arrays(u, v, w)" in flat
+
+    def test_a_table_for_a_number_and_a_turned_table_have_words_of_their_own(self):
+        @exercise(points=1, title="Sum", kind="value")
+        def total(a):
+            """Return the sum."""
+            return float(np.sum(a))
+
+        @exercise(points=1, title="Table", kind="net")
+        def table(a):
+            """Return the rows twice."""
+            return np.stack([a, 2 * a])
+
+        for posed in (total, table):
+            posed.data(lambda rng: {"a": rng.uniform(size=3)})
+        assert "The answer is a single number: is a sum, a mean or an index missing?" in judge(total, lambda a: a).message
+        assert judge(table, lambda a: table.reference(a).T).message.endswith("which axis is which in the statement?")
+
+    def test_what_only_blind_data_show_is_not_followed_up(self, tube):
+        """No "the first case" where no case was told."""
+        verdict = judge(tube, lambda u, w, r, h: right(u, w, h, r))
+        assert "which cannot see this mistake" in verdict.message
+        assert "first case" not in verdict.message
+
     def test_a_mesh_made_inside(self, tube):
         verdict = judge(tube, lambda u, w, r, h: right(*np.meshgrid(u, w), r, h))
         assert (verdict.tier, verdict.fraction) == ("shape", 0.0)
