@@ -260,5 +260,6 @@ def _line(error: Exception, entry: Path) -> str:
     """``exercises.py:12``: the innermost line of the assignment's own files that an error comes from."""
     if isinstance(error, SyntaxError) and error.filename:
         return f"{error.filename}:{error.lineno}"
-    frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).is_relative_to(entry.parent)]
+    here = entry.parent.absolute()  # as modules name their files, wherever the folder was named from
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).is_relative_to(here)]
     return f"{frames[-1].filename}:{frames[-1].lineno}" if frames else str(entry)

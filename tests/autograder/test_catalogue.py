@@ -1,6 +1,7 @@
 """Exercises are found in an assignment folder, in a course folder, and in the set that is shipped."""
 
 import os
+from pathlib import Path
 
 import pytest
 
@@ -192,9 +193,12 @@ def test_an_installed_package_declares_its_exercises(tmp_path, monkeypatch, valu
         ),
     ],
 )
-def test_a_file_that_cannot_be_loaded_is_told_with_its_line(tmp_path, text, said):
-    """No traceback through the loader: the author's own line."""
+def test_a_file_that_cannot_be_loaded_is_told_with_its_line(tmp_path, monkeypatch, text, said):
+    """No traceback through the loader: the author's own line, also of a folder that is named from where one is."""
     (tmp_path / "01-first").mkdir()
     (tmp_path / "01-first" / "exercises.py").write_text(text)
     with pytest.raises(CourseError, match=said):
         catalogue.load(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(CourseError, match=said):
+        catalogue.load(Path("01-first"))
