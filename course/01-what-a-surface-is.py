@@ -276,4 +276,5 @@ plot.walk(dx.Torus(0.5, 1), [(0, 0.1), (1, 0.1)], title="R = 0.5: the tube cuts 
 # You have met the five known forms as rules. Write them yourself in [A1 · Known forms](../A1/known-forms.ipynb), where each
 # function is checked like the one above, and each mistake has a name.
 #
-# The next form needs no circle at all: take *any* curve, and push it along a straight line. That is the **linear sweep**.
+# The next form needs no circle at all: take *any* curve, and push it along a straight line. That is the **linear sweep**, and the
+# beginning of the next chapter: [How a curve sweeps a surface](02-how-a-curve-sweeps-a-surface.ipynb).
