@@ -61,8 +61,8 @@ orange = None  # two things, in your own words
 
 
 # %%
-def wave(t):
-    return points(4 * t, 0, 0.4 * np.sin(6 * np.pi * t))
+def wave(s):
+    return points(4 * s, 0, 0.4 * np.sin(6 * np.pi * s))
 
 
 roof = dx.LinearSweep(wave, direction=(0, 1, 0), distance=3)
@@ -199,8 +199,8 @@ plot.walk(dx.CircularSweep(across, "z", 1.5 * np.pi), [(0, 0), (0.5, 0), (0.5, 1
 
 # %% [markdown]
 # **Two things to see.** A whole line of the square has become one point, a **pole**; there $S_w = 0$, and the cross product
-# $S_u \times S_w$ gives no normal. And the two sheets pass *through each other* along a circle: where both halves of the curve
-# are equally high at the same distance from the axis.
+# $S_u \times S_w$ gives no normal. And the two sheets pass *through each other*, along parts of a circle: there both halves of the
+# curve are equally high at the same distance from the axis.
 #
 # A plane generatrix that stays on one side of its axis has neither trouble. It may touch the axis with an end: that closes a cap.
 
@@ -211,18 +211,19 @@ plot.walk(dx.CircularSweep(across, "z", 1.5 * np.pi), [(0, 0), (0.5, 0), (0.5, 1
 #
 # $$S(u, w) = G(u) + D(w) - D(0)$$
 #
-# What counts is how far $D$ has *come*, so $S(u, 0) = G(u)$. The straight ridge of the roof becomes an arch: the wave is carried
-# along the arch.
+# What counts is how far $D$ has *come*, so $S(u, 0) = G(u)$. And $w$ is the parameter of $D$ now, whatever it measures: at
+# $w = ½$ half of the length need not be done.
 #
-# Carry the arch along the wave instead. Which surface is that?
+# The straight ridges of the roof shall become arches: the wave is carried along an arch that begins in the same point. Carry the
+# arch along the wave instead. Which surface is that?
 
 # %%
 exchanged = None  # "another one", "the same" or "its mirror image"
 
 
 # %%
-def arch(t):
-    return points(0, 3 * t, 4 * t * (1 - t))
+def arch(s):
+    return points(0, 3 * s, 4 * s * (1 - s))
 
 
 vault = dx.GenericSweep(wave, arch, frame="fixed")
@@ -276,8 +277,8 @@ def frenet(d1, d2):
 # %%
 def helix(w, order=0):
     """A helix of radius 2 that climbs 3 in its one turn, or a derivative of it."""
-    a, size = 2 * np.pi * w + order * np.pi / 2, (2 * np.pi) ** order
-    return points(2 * size * np.cos(a), 2 * size * np.sin(a), (3 * w, 3, 0)[order])
+    angle, size = 2 * np.pi * w + order * np.pi / 2, 2 * (2 * np.pi) ** order
+    return points(size * np.cos(angle), size * np.sin(angle), (3 * w, 3, 0)[order])
 
 
 with once_written():
@@ -299,9 +300,9 @@ with once_written():
 def pipe(u, w, wire, r):
     """A pipe of radius r round a curve of the library."""
     _, n, b = frenet(wire.derivative(w, 1), wire.derivative(w, 2))
-    a = 2 * np.pi * np.asarray(u)[..., None]
+    angle = 2 * np.pi * np.asarray(u)[..., None]
     ### BEGIN SOLUTION
-    return wire(w) + r * np.cos(a) * n + r * np.sin(a) * b
+    return wire(w) + r * np.cos(angle) * n + r * np.sin(angle) * b
     ### END SOLUTION
 
 
@@ -368,8 +369,8 @@ print(f"minimal: the last step falls by {np.degrees(falls):.0f}° to the inside"
 # **Left** the step never turns: the sum of section 4 again, so it is also the helix, pushed sideways. **Right** the step turns
 # with the wire but never about it, and by the end it stands on edge.
 #
-# **In the middle**, a *helicoid*. Bend and torsion of a helix are the same everywhere, so its Frenet frame turns evenly about one
-# axis while it climbs. Whatever you carry along a helix in it is *screwed*: stairs, a thread, a drill.
+# **In the middle**, a *helicoid*. A helix is the same everywhere, in its bend and in its torsion, so its Frenet frame turns evenly about
+# one axis while it climbs. Whatever you carry along a helix in it is *screwed*: stairs, a thread, a drill.
 
 # %% [markdown]
 # ## 7 · Where Frenet's frame breaks
@@ -535,10 +536,10 @@ mark_is_home = None  # "yes", "nearly" or "no"
 
 
 # %%
-def knot(t):
+def knot(s):
     """A trefoil knot."""
-    a = 2 * np.pi * t
-    return points(np.sin(a) + 2 * np.sin(2 * a), np.cos(a) - 2 * np.cos(2 * a), -1.5 * np.sin(3 * a))
+    one, two, three = (2 * np.pi * i * s for i in (1, 2, 3))
+    return points(np.sin(one) + 2 * np.sin(two), np.cos(one) - 2 * np.cos(two), -1.5 * np.sin(three))
 
 
 wire = dx.FunctionCurve(knot)
@@ -567,7 +568,8 @@ plot.view(closed, samples=121, lines=16)
 # make up for each other exactly: the area stays $2\pi r L$.
 #
 # How long does that go on? Where the wire has the curvature $\kappa$, the pipe is stretched $1 - r\kappa\cos 2\pi u$ times; $u = 0$ is
-# the inside. Now take the parabola $z = x^2$ as the wire. Which is the thickest pipe that it bears?
+# the inside. Now take the parabola $z = x^2$ as the wire; it bends most at its vertex. Which is the thickest pipe
+# that it bears?
 
 # %%
 thickest = None  # a radius
