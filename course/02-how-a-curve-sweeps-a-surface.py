@@ -352,7 +352,7 @@ stairs = {frame: dx.GenericSweep(step, helix, frame) for frame in ("fixed", "fre
 before = stairs["fixed"].moved(dx.Transform.translate((-5, 0, 0)))
 beyond = stairs["minimal"].moved(dx.Transform.translate((5.5, 0, 0)))
 reveal(staircase, "frenet, in the middle")
-figure = plot.view(stairs["frenet"], also=[before, beyond], title="fixed · Frenet · minimal", lines=4, height=520)
+figure = plot.view(stairs["frenet"], also=[before, beyond], title="fixed · Frenet · minimal", lines=4)
 figure.update_layout(scene_camera_eye={"x": 0.1, "y": -0.95, "z": 0.6})
 
 # %%
@@ -612,5 +612,8 @@ with once_written():
 # bend, or turned as little as possible: three surfaces, and whoever writes "sweep" on a drawing must add which.
 #
 # Write the sweeps yourself, each checked on many curves: [A2 · Linear sweep](../A2/linear-sweep.ipynb), [A3 · Circular
-# sweep](../A3/circular-sweep.ipynb), [A4 · Generic and ruled](../A4/generic-and-ruled.ipynb). The last begins the next story: two
-# curves again, but neither of them moves, and straight lines run from one to the other.
+# sweep](../A3/circular-sweep.ipynb), [A4 · Generic and ruled](../A4/generic-and-ruled.ipynb), which begins another story: two
+# curves of which neither moves.
+#
+# And where do curves like the snake come from? Four points made it, and it met two of them. That is the next chapter:
+# [What control points do](03-what-control-points-do.ipynb).
