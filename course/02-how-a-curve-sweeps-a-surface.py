@@ -612,8 +612,8 @@ with once_written():
 # bend, or turned as little as possible: three surfaces, and whoever writes "sweep" on a drawing must add which.
 #
 # Write the sweeps yourself, each checked on many curves: [A2 · Linear sweep](../A2/linear-sweep.ipynb), [A3 · Circular
-# sweep](../A3/circular-sweep.ipynb), [A4 · Generic and ruled](../A4/generic-and-ruled.ipynb), which begins another story: two
-# curves of which neither moves.
+# sweep](../A3/circular-sweep.ipynb), [A4 · Generic and ruled](../A4/generic-and-ruled.ipynb), where two
+# curves may also stand still.
 #
 # And where do curves like the snake come from? Four points made it, and it met two of them. That is the next chapter:
 # [What control points do](03-what-control-points-do.ipynb).
