@@ -106,15 +106,24 @@ class GradeReport:
         """Those graded in this run."""
         return tuple(student for student in self.students if student.status == "graded")
 
-    @cached_property
+    @property
     def broken(self) -> tuple[str, ...]:
         """Submissions, or notebooks of them, that could not be read, by name."""
-        return tuple(f"{student.student}: {what}" for student in self.students for what in student.broken)
+        return self._named[0]
 
-    @cached_property
+    @property
     def faults(self) -> tuple[str, ...]:
         """What went wrong on the grader's side, by name: never a learner's failure, and tried again in the next run."""
-        return tuple(f"{student.student}: {what}" for student in self.students for what in student.faults)
+        return self._named[1]
+
+    @cached_property
+    def _named(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        broken: list[str] = []
+        faults: list[str] = []
+        for student in self.students:
+            broken += [f"{student.student}: {what}" for what in student.broken]
+            faults += [f"{student.student}: {what}" for what in student.faults]
+        return tuple(broken), tuple(faults)
 
     @property
     def failures(self) -> tuple[str, ...]:
