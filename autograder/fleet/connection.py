@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator
 from autograder.errors import CourseError
 
 try:
+    import dask.config
     import distributed
 except ModuleNotFoundError as error:
     raise CourseError(f"grading on a cluster needs {error.name}: pip install 'directrix[cluster]'") from None
@@ -50,7 +51,8 @@ def connected(scheduler: str | distributed.Client) -> Iterator[distributed.Clien
         raise CourseError(f"a scheduler is tls://host:port, or tcp://127.0.0.1:port on this machine; got {scheduler!r}")
     refuse([scheduler])
     try:
-        client = distributed.Client(scheduler, security=_security(scheduler), timeout=PATIENCE, set_as_default=False)
+        with dask.config.set({"distributed.admin.low-level-log-length": 0}):  # else the last thousand batches stay in memory
+            client = distributed.Client(scheduler, security=_security(scheduler), timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
         raise CourseError(f"no Dask scheduler answers at {scheduler}: {type(error).__name__}: {error}") from None
     try:

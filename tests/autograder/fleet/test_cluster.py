@@ -6,6 +6,7 @@ import os
 import pickle
 import signal
 import time
+import tracemalloc
 
 import dask
 import pytest
@@ -59,6 +60,21 @@ def hand_in(room, count, square=RIGHT["square"]):
         room.hand_in(
             f"s{number:02d}", {"one": {**RIGHT, "square": square if number % 3 else "def square(x): return 4"}, "two": ADD}
         )
+
+
+def test_what_was_sent_is_not_kept(two_workers):
+    """Dask's own log of messages would hold the last thousand batches of submissions."""
+    size, count = 50_000, 40
+    with connected(two_workers.address) as client:
+        client.submit(len, os.urandom(size), pure=False).result()  # what is loaded once
+        tracemalloc.start()
+        try:
+            for _ in range(count):
+                assert client.submit(len, os.urandom(size), pure=False).result() == size
+            held, _ = tracemalloc.get_traced_memory()
+        finally:
+            tracemalloc.stop()
+    assert held < 0.2 * count * size, f"{held / count:.0f} bytes of each message"
 
 
 def test_a_class_has_the_marks_and_files_that_this_machine_gives(two_workers, ordinary, tmp_path):
