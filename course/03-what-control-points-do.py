@@ -3,12 +3,12 @@
 #
 # **How can a point shape a surface that never touches it?**
 #
-# You know one move: from one point towards another, a share of the way. This chapter does nothing else. Repeated, the move makes
-# Bezier curves and patches; with a ruler of knots beside it, B-splines; one dimension higher, NURBS and an exact circle. It ends
-# where one number too small turns a quarter of a circle into the other three.
+# You know one move: from one point towards another, a share of the way. This chapter does nothing else. Repeated, the move
+# makes Bezier curves and patches; with a ruler of knots beside it, B-splines; one dimension higher, NURBS and an exact circle.
+# It ends where one number too small turns a quarter of a circle into the other three.
 #
-# It takes about an hour and a half, and halfway there is a good place to stop for tonight. Type your guess before you run the cell
-# that answers; nobody marks it.
+# It takes about two hours, and halfway there is a good place to stop for tonight. Type your guess before you run the cell that
+# answers; nobody marks it.
 
 # %% fold=true
 import contextlib
@@ -89,8 +89,8 @@ t_fine = np.linspace(0, 1, 481)
 #
 # a **mix** of the two. Its shares are $1 - t$ and $t$, always together 1. Remember these two words: together 1.
 #
-# Now three points. One walker goes from $A$ to $B$, a second at the same time from $B$ to $C$, and an elastic string is stretched between
-# them. A third walks along the string, always the share $t$ of its length. What does her path look like?
+# Now three points. One walker goes from $A$ to $B$, a second at the same time from $B$ to $C$, and an elastic string is
+# stretched between them. A third walks along the string, always the share $t$ of its length. What does her path look like?
 
 # %%
 third = None  # "a straight line", "a circle", "a parabola" or "a line with a corner"
@@ -111,8 +111,8 @@ reveal(third, "a parabola")
 figure
 
 # %% [markdown]
-# **Look at the strings.** Each touches the curve in one point: the third walker always moves *along* the string. At the start it lies
-# on $AB$, at the end on $BC$.
+# **Look at the strings.** Each touches the curve in one point: the third walker always moves *along* the string. At the start
+# it lies on $AB$, at the end on $BC$.
 #
 # Put one mix into the other, and collect:
 #
@@ -124,11 +124,12 @@ figure
 # %% [markdown]
 # ## 2 · Again and again
 #
-# More points? Mix all neighbours: $n$ points become $n - 1$. Mix those again, and again, until one is left. With $t$ from 0 to 1 it
-# runs along the **Bezier curve** of the **control points**. Paul de Casteljau found this at Citroën in 1959, and Citroën kept it secret;
-# Pierre Bézier of Renault published, and gave the name.
+# More points? Mix all neighbours: $n$ points become $n - 1$. Mix those again, and again, until one is left. With $t$ from 0 to
+# 1 it runs along the **Bezier curve** of these **control points**; the legs between them are the **control polygon**. Paul de
+# Casteljau found this at Citroën in 1959, and Citroën kept it secret; Pierre Bézier of Renault published, and gave the name.
 #
-# $n$ points make degree $n - 1$. The decisive line is missing. Write it: from all points but the last, towards all but the first.
+# $n$ points make degree $n - 1$. The decisive line is missing. Write it: from all points but the last, towards all but the
+# first.
 
 
 # %%
@@ -147,8 +148,8 @@ def casteljau(points, t):
 
 
 # %% [markdown]
-# Test it without a model answer. What must be true? It starts and ends at the ends. Run backwards it passes the same places. Three
-# points give the three shares above. And if all points are one point, nothing else may come out.
+# Test it without a model answer. What must be true? It starts and ends at the ends. Run backwards it passes the same places.
+# Three points give the three shares above. And if all points are one point, nothing else may come out.
 
 # %%
 zigzag = flat((0, 0), (2, 4), (6, -3), (10, 4), (14, -3), (18, 4), (20, 0))
@@ -185,8 +186,8 @@ reveal(crossings, f"at most 6; in this picture it is {np.sum(side[1:] != side[:-
 figure
 
 # %% [markdown]
-# This is called **variation diminishing**: the curve never wiggles more than its polygon. A polygon without a dent makes a curve
-# without a dent. Throw lines at random, and try to find one that proves it wrong:
+# This is called **variation diminishing**: the curve never wiggles more than its polygon. A polygon without a dent makes a
+# curve without a dent. Throw lines at random, and try to find one that proves it wrong:
 
 
 # %%
@@ -209,10 +210,10 @@ with once_written():
 # %% [markdown]
 # ## 3 · A curve of curves
 #
-# For a surface take a **control net**, rows and columns of points $P_{ij}$: $i$ counts along $u$, $j$ along $w$. With $j$ held, the four
-# points $P_{0j}, \dots, P_{3j}$ are the polygon of a curve along $u$. Let a pearl slide on each of the four curves, all at the same
-# $u$. The four pearls are control points again, of one curve along $w$. While $u$ grows, that curve bends and travels, and what it
-# passes is the **Bezier patch**.
+# For a surface take a **control net**, rows and columns of points $P_{ij}$: $i$ counts along $u$, $j$ along $w$. With $j$ held,
+# the four points $P_{0j}, \dots, P_{3j}$ are the polygon of a curve along $u$. Let a pearl slide on each of the four curves,
+# all at the same $u$. The four pearls are control points again, of one curve along $w$. While $u$ grows, that curve bends and
+# travels, and what it passes is the **Bezier patch**.
 #
 # The pearls went along $u$ first. What comes out if they go along $w$ first, on the other four curves?
 
@@ -243,8 +244,9 @@ caption(figure, net=palette.NET, four_curves_along_u=palette.U, the_pearls=palet
 figure
 
 # %% [markdown]
-# Here $u = 0.4$. **Look at the two inner blue curves**: they float above the patch. An inner row or column of the net makes a curve, but
-# not one *on* the surface. The thick orange curve, that of the pearls, does lie on it, and so it is for every other $u$.
+# Here $u = 0.4$. **Look at the two inner blue curves**: they float above the patch. An inner row or column of the net makes a
+# curve, but not one *on* the surface. The thick orange curve, that of the pearls, does lie on it, and so it is for every other
+# $u$.
 #
 # Write it. `casteljau` of the whole net mixes whole rows of points, so it gives you all four pearls at once. One line.
 
@@ -274,8 +276,8 @@ with once_written():
 #
 # $$S(u, w) = \sum_i \sum_j B_i(u)\, B_j(w)\, P_{ij}$$
 #
-# For that it is called a **tensor product**. The $B_i$ are the shares that the repeated mixing leaves, the Bernstein functions; in
-# [A6](../A6/bezier.ipynb) you write them down.
+# For that it is called a **tensor product**. The $B_i$ are the shares that the repeated mixing leaves, the Bernstein functions;
+# in [A6](../A6/bezier.ipynb) you write them down.
 #
 # The marker below walks the edges of the square, $(0,0)$ to $(1,0)$ to $(1,1)$. Which control point does it pass half way?
 
@@ -289,11 +291,12 @@ plot.walk(sail, [(0, 0), (1, 0), (1, 1)])
 # %% [markdown]
 # ## 4 · What the net promises, and what it does not
 #
-# Shares between 0 and 1, together 1, so the promises come along: the four **corners**; the four **edges**, which are the Bezier curves
-# of the outer rows and columns; the **convex hull**; **affine invariance**. (Not the fourth. For surfaces no variation-diminishing
-# property is known: Piegl and Tiller, *The NURBS Book*, section 3.4.)
+# Shares between 0 and 1, together 1, so the promises come along: the four **corners**; the four **edges**, which are the Bezier
+# curves of the outer rows and columns; the **convex hull**; **affine invariance**. (Not the fourth. For surfaces no
+# variation-diminishing property is known: Piegl and Tiller, *The NURBS Book*, section 3.4.)
 #
-# And at each corner the net lies *on* the surface's **tangent plane**. Three control points make a plane. Which three at $S(0, 0)$?
+# And at each corner the net lies *on* the surface's **tangent plane**. Three control points make a plane. Which three at
+# $S(0, 0)$?
 
 # %%
 plane_of = None  # for example "P[0, 0], P[1, 1], P[2, 2]"
@@ -320,11 +323,11 @@ further = (sail(u, w) @ directions).max((0, 1)) - (net @ directions).max((0, 1))
 holds("2000 directions: never outside the convex hull", np.maximum(further, 0))
 
 # %% [markdown]
-# So that is the first half of an answer. Twelve of the sixteen points are never reached; eight of these hold the edges, and with
-# them the tangent planes of the corners; four reach into the middle.
+# So that is the first half of an answer. Twelve of the sixteen points are never reached; eight of these hold the edges, and
+# with them the tangent planes of the corners; four reach into the middle.
 #
-# But does the patch really not pass through them? Here are two surfaces over a regular net of $4 \times 4$ points. One is the Bezier
-# patch. The other was made by somebody who thought that it must pass through *all* of the points.
+# But does the patch really not pass through them? Here are two surfaces over a regular net of $4 \times 4$ points. One is the
+# Bezier patch. The other was made by somebody who thought that it must pass through *all* of the points.
 
 # %% fold=true
 right = shipped().find("bezier_patch")
@@ -339,8 +342,8 @@ def through_all(P):
 plot.view(lambda u, w: right(u, w, P=lattice), against=through_all(lattice), names=("one", "the other"))
 
 # %% [markdown]
-# The same everywhere, to the last point: a flat lattice is **blind**. Now the same two on our net. One of them is the Bezier patch;
-# the other passes through all sixteen points. Which is the Bezier patch?
+# The same everywhere, to the last point: a flat lattice is **blind**. Now the same two on our net. One of them is the Bezier
+# patch; the other passes through all sixteen points. Which is the Bezier patch?
 
 # %%
 bezier_is = None  # "left" or "right"
@@ -353,8 +356,8 @@ plot.view(lambda u, w: right(u, w, P=net), against=through_all(net), names=("one
 print(mistakes["net_piecewise"].hint)
 
 # %% [markdown]
-# The second thing that the net does *not* promise: peace elsewhere. Pull the inner point $P_{11}$ upwards by 9 and leave all others.
-# Where does the patch stay exactly where it was?
+# The second thing that the net does *not* promise: peace elsewhere. Pull the inner point $P_{11}$ upwards by 9 and leave all
+# others. Where does the patch stay exactly where it was?
 
 # %%
 still = None  # "nowhere", "at the corners only", "on the four edges" or "everywhere beyond u = w = 1/2"
@@ -370,22 +373,22 @@ print(f"most of all at u = w = 1/3: by {most:.3f}, which is {most / 9:.3f} of th
 reveal(still, "on the four edges, and nowhere else")
 
 # %% [markdown]
-# **One point moves everything**, if only a little at the far end: its share $B_1(u)\,B_1(w)$ is above 0 in all of the open square. At
-# most it is $\frac49 \cdot \frac49 = \frac{16}{81}$, so the patch follows a fifth of the way. A control point does not say *here*. It
-# says *more this way*.
+# **One point moves everything**, if only a little at the far end: its share $B_1(u)\,B_1(w)$ is above 0 in all of the open
+# square. At most it is $\frac49 \cdot \frac49 = \frac{16}{81}$, so the patch follows a fifth of the way. A control point does
+# not say *here*. It says *more this way*.
 #
-# This is a good place to stop for tonight. The other half asks how to say *more this way, but only here*, and why all of this still
-# cannot make a tin can.
+# This is a good place to stop for tonight. The other half asks how to say *more this way, but only here*, and why all of this
+# still cannot make a tin can.
 
 # %% [markdown]
 # ## 5 · Degree against locality
 #
-# A longer curve needs more points. Bezier knows one way: a higher degree. Eleven points make degree 10, and each of them moves all of
-# it.
+# A longer curve needs more points. Bezier knows one way: a higher degree. Eleven points make degree 10, and each of them moves
+# all of it.
 #
-# The way out: let only a few *neighbours* mix, $k$ of them at a time. $k$ is the **order**, always one more than the degree; $k = 4$ is
-# cubic. (Many books, and scipy, count by the degree. Ask which, each time.) You will see the same eleven points with $k = 2$, 3, 4
-# and 11. Which curve keeps closest to its polygon?
+# The way out: let only a few *neighbours* mix, $k$ of them at a time. $k$ is the **order**, always one more than the degree;
+# $k = 4$ is cubic. (Many books, and scipy, count by the degree. Ask which, each time.) You will see the same eleven points with
+# $k = 2$, 3, 4 and 11. Which curve keeps closest to its polygon?
 
 # %%
 closest = None  # 2, 3, 4 or 11
@@ -403,21 +406,22 @@ reveal(closest, "2: order 2 mixes two neighbours only, and that is the polygon i
 figure
 
 # %% [markdown]
-# **Read it from $k = 11$ down.** Order 11 is the Bezier curve: smooth, lazy, far from its points. Order 4 follows every bend. Order 3
-# touches each inner leg at its middle. Order 2 is as local as can be, and has corners. Smoothness is bought with locality; most of
-# the world settles at $k = 4$, cubic.
+# **Read it from $k = 11$ down.** Order 11 is the Bezier curve: smooth, lazy, far from its points. Order 4 follows every bend.
+# Order 3 touches each inner leg at its middle. Order 2 is as local as can be, and has corners. Smoothness is bought with
+# locality; most of the world settles at $k = 4$, cubic.
 #
 # These are **B-spline curves**. How do they know which points to mix?
 
 # %% [markdown]
 # ## 6 · The same triangle, beside a ruler
 #
-# Lay a ruler beside the curve, with marks $t_0 \le t_1 \le t_2 \le \dots$: the **knot vector**. Between two different marks lies a
-# **knot span**. There the curve is one polynomial of degree $k - 1$, mixed from $k$ points. $m$ points need $m + k$ knots.
+# Lay a ruler beside the curve, with marks $t_0 \le t_1 \le t_2 \le \dots$: the **knot vector**. Between two different marks
+# lies a **knot span**. There the curve is one polynomial of degree $k - 1$, mixed from $k$ points. $m$ points need $m + k$
+# knots.
 #
-# The mixing is de Casteljau's, round after round. Only the shares change: not $t$ itself, but how far $t$ has come *between two knots*.
-# In round $q$, point $j$ is mixed with its left neighbour, and the share is 0 at the knot $t_j$ and 1 at $t_{j+k-q}$. This is de Boor's
-# algorithm. Write the share.
+# The mixing is de Casteljau's, round after round. Only the shares change: not $t$ itself, but how far $t$ has come *between two
+# knots*. In round $q$, point $j$ is mixed with its left neighbour, and the share is 0 at the knot $t_j$ and 1 at $t_{j+k-q}$.
+# This is de Boor's algorithm. Write the share.
 
 
 # %%
@@ -436,9 +440,11 @@ def de_boor(points, knots, k, t):
 
 
 # %% [markdown]
-# What must hold? With no knot between the ends, every share is $t$, and de Casteljau comes out. Equal points give that point. And
-# the curve is inside the hull of just $k$ points, a much tighter promise than before. (The `min` closes the last span on the right.
-# Without it nobody is at home at the very last knot.)
+# What must hold? $t$ lies between the two knots, so each share is again between 0 and 1, and all promises come along. One grows
+# tighter: on a span the curve stays in the hull of its $k$ points. And with knots 0 and 1 at the ends and none between, every
+# share is $t$, which is de Casteljau.
+#
+# (The `min` closes the last span on the right. Without it nobody is at home at the very last knot.)
 
 # %%
 knots = np.array([0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 8, 8, 8], float)  # 11 points, k = 4
@@ -454,8 +460,8 @@ with once_written():
     holds("the same as the library's", [de_boor(row, knots, 4, s) for s in t], dx.BSplineCurve(row, 4)(t / 8))
 
 # %% [markdown]
-# Turn it round. On a span $k$ points count; so how many spans does *one* point move? The ruler has 8 spans. Pull $P_5$, the one in the
-# middle, with $k = 4$. How many of the 8 feel it?
+# Turn it round. On a span $k$ points count; so how many spans does *one* point move? The ruler has 8 spans. Pull $P_5$, the one
+# in the middle, with $k = 4$. How many of the 8 feel it?
 
 # %%
 felt = None  # a number from 1 to 8
@@ -481,12 +487,12 @@ reveal(felt, f"{int((gaps > 0).sum())}, from the knot t = 2 to the knot t = 6")
 figure
 
 # %% [markdown]
-# **Exactly still**, not nearly. This is **local support**: a point moves at most $k$ spans of the curve, and so at most $k \times l$ of
-# a patch of orders $k$ and $l$.
+# **Exactly still**, not nearly. This is **local support**: a point moves at most $k$ spans of the curve, and so at most
+# $k \times l$ of a patch of orders $k$ and $l$.
 #
-# Now one inner point of a net of $9 \times 9$ points, pulled upwards by 1. You look down on the parameter square; the colour is how far
-# the patch has moved, and what is white has not moved at all. Left the Bezier patch of the net, right the B-spline patch with
-# $k = l = 4$, its knots as lines. Count the squares that feel it.
+# Now one inner point of a net of $9 \times 9$ points, pulled upwards by 1. You look down on the parameter square; the colour is
+# how far the patch has moved, and what is white has not moved at all. Left the Bezier patch of the net, right the B-spline
+# patch with $k = l = 4$, its knots as lines. Count the squares that feel it.
 
 # %% fold=true
 fine = np.linspace(0, 1, 97)
@@ -509,14 +515,15 @@ figure.update_yaxes(scaleanchor="x", col=1).update_yaxes(scaleanchor="x2", col=2
 figure.update_layout(height=380, template="none", margin={"t": 40, "b": 50, "l": 50, "r": 20})
 
 # %% [markdown]
-# **What to see.** On the right twelve of the 36 squares: four spans along $w$, and three along $u$, where $P_{23}$ is near the edge. On
-# the left all of it. In the far corner that is less than a millionth, but no program may call it nothing.
+# **What to see.** On the right twelve of the 36 squares: four spans along $w$, and three along $u$, where $P_{23}$ is near the
+# edge. On the left all of it. In the far corner that is less than a millionth, but no program may call it nothing.
 
 # %% [markdown]
 # ## 7 · When knots meet
 #
-# Where two spans meet, a cubic B-spline agrees in point, tangent and second derivative. Now push knots together. How often a knot occurs
-# is its **multiplicity** $\mu$, and each time costs one derivative: at order $k$ they agree up to the $(k - 1 - \mu)$-th.
+# Where two spans meet, a cubic B-spline agrees in point, tangent and second derivative. Now push knots together. How often a
+# knot occurs is its **multiplicity** $\mu$, and each time costs one derivative: at order $k$ they agree up to the
+# $(k - 1 - \mu)$-th.
 #
 # Seven points, $k = 4$, with the knot $t = 2$ once, twice, three times. What will the curve have there, at three?
 
@@ -540,11 +547,11 @@ reveal(three_times, "a corner, and it lies on a control point: there k - 1 knots
 figure
 
 # %% [markdown]
-# A fourth time, and the curve tears. So now you know when a spline *does* touch a control point: where a knot occurs $k - 1$ times. At
-# the ends it occurs $k$ times, and that is all that is behind "the curve begins at its first point".
+# A fourth time, and the curve tears. So now you know when a spline *does* touch a control point: where a knot occurs $k - 1$
+# times. At the ends it occurs $k$ times, and that is all that is behind "the curve begins at its first point".
 #
-# On a patch the corner becomes a **crease** along a whole line. A car body has such lines, and this is one way to draw them. Find the
-# crease; then find the row of control points on it.
+# On a patch the corner becomes a **crease** along a whole line. A car body has such lines, and this is one way to draw them.
+# Find the crease; then find the row of control points on it.
 
 # %%
 heights = np.outer([0, 0.3, 1.2, 4.5, 2.6, 2.2, 2.4], [0.6, 1, 1.2, 1, 0.4])
@@ -556,9 +563,9 @@ plot.view(creased, net=True, knots=True, height=540)
 # %% [markdown]
 # ## 8 · Ends, or none
 #
-# Knots that repeat $k$ times at both ends are called *open* here, **clamped** in many books. (Careful: in some, "open" means the
-# opposite.) The next picture shows a patch with $k = 4$, $l = 3$ and one that a learner's mistake made from the same net. **Which
-# mistake?**
+# Knots that repeat $k$ times at both ends are called *open* here, **clamped** in many books. (Careful: in some, "open" means
+# the opposite.) The next picture shows a patch with $k = 4$, $l = 3$ and one that a learner's mistake made from the same net.
+# **Which mistake?**
 #
 # * `"bezier"`: the whole net taken as one Bezier patch
 # * `"order_is_degree"`: $k$ and $l$ taken for degrees
@@ -582,11 +589,11 @@ reveal(mistake, "unclamped")
 print(spline_mistakes["unclamped"].hint)
 
 # %% [markdown]
-# Yet sometimes a curve should have no ends. Keep the knots evenly spaced, and when the points run out, begin again with the first
-# $k - 1$: **periodic**. The curve closes, and not only the points meet but the tangents and the second derivatives too.
+# Yet sometimes a curve should have no ends. Keep the knots evenly spaced, and when the points run out, begin again with the
+# first $k - 1$: **periodic**. The curve closes, and not only the points meet but the tangents and the second derivatives too.
 #
-# A tube of six points round and five along, cubic both ways, periodic in $u$ and clamped in $w$. Clamped, six points of order 4 make
-# three spans. How many spans go round the tube?
+# A tube of six points round and five along, cubic both ways, periodic in $u$ and clamped in $w$. Clamped, six points of order 4
+# make three spans. How many spans go round the tube?
 
 # %%
 round_it = None  # a number
@@ -605,8 +612,8 @@ plot.view(vase, net=True, knots=True, height=540)
 # %% [markdown]
 # ## 9 · Why not simply round?
 #
-# The vase looks round. Is it? Measure the radius of its foot, $w = 0$. And ask for less: a mere quarter of a circle of radius 1, from one
-# polynomial $x(t)$ and one $y(t)$ of any degree you like. From which degree on can $x^2 + y^2 = 1$ be exact?
+# The vase looks round. Is it? Measure the radius of its foot, $w = 0$. And ask for less: a mere quarter of a circle of radius
+# 1, from one polynomial $x(t)$ and one $y(t)$ of any degree you like. From which degree on can $x^2 + y^2 = 1$ be exact?
 
 # %%
 exact_from = None  # a degree, or "none"
@@ -625,16 +632,16 @@ reveal(exact_from, "none")
 # **None, ever.** Let $a\,t^n$ and $b\,t^n$ be the highest powers in $x$ and $y$, not both 0. Then $x^2 + y^2$ contains
 # $(a^2 + b^2)\,t^{2n}$, and squares cannot cancel. So it is no constant, unless $n = 0$, and that is a single point.
 #
-# So no Bezier patch and no B-spline patch is even a piece of a cylinder; for the sphere and the torus it is the same. (And the cone?
-# Wait a little.) The errors above are soon smaller than any machine can cut. But a drawing that says *cylinder* should mean one, for
-# the next program that measures it, meets it with a plane, or offsets it by a millimetre.
+# A Bezier patch is polynomial along each of its lines, a B-spline patch on each span. So neither is even a piece of a cylinder;
+# for sphere and torus it is the same. (And the cone? Wait a little.) The errors above are soon smaller than any machine can
+# cut. But a drawing that says *cylinder* should mean one, for the next program that measures it or cuts it with a plane.
 
 # %% [markdown]
 # ## 10 · One dimension higher
 #
-# What is not a polynomial but nearly as easy? A *quotient* of two. Give each control point a **weight** $h_i > 0$ and one coordinate
-# more: lift $(x, y)$ to $(h x,\; h y,\; h)$. Run de Casteljau up there, as ever. Then come down: divide by the last coordinate. These
-# curves are called **rational**.
+# What is not a polynomial but nearly as easy? A *quotient* of two. Give each control point a **weight** $h_i > 0$ and one
+# coordinate more: lift $(x, y)$ to $(h x,\; h y,\; h)$. Run de Casteljau up there, as ever. Then come down: divide by the last
+# coordinate. These curves are called **rational**.
 #
 # Write the way down.
 
@@ -660,8 +667,14 @@ with once_written():
     holds("all weights 1: the plain curve", rational(arc, [1, 1, 1], 0.3), casteljau(arc, 0.3))
 
 # %% [markdown]
-# A circle, from nothing but mixing and one division. What curve did you draw *before* you divided, upstairs, where the points are
-# $(h x,\; h y,\; h)$? You have known it since section 1.
+# Written out, the share of point $i$ is now
+#
+# $$\frac{h_i\, B_i(t)}{\sum_j h_j\, B_j(t)}$$
+#
+# With all weights above 0 it lies between 0 and 1, and the shares are together 1. So every promise of section 2 still holds.
+#
+# And there is a circle, from nothing but mixing and one division! What curve did you draw *before* you divided, upstairs, where
+# the points are $(h x,\; h y,\; h)$? You have known it since section 1.
 
 # %%
 upstairs = None  # "a circle", "a parabola", "a straight line" or "an ellipse"
@@ -692,15 +705,16 @@ reveal(upstairs, "a parabola")
 figure
 
 # %% [markdown]
-# **Follow one grey ray.** The pink parabola lies on a cone of such rays, $x^2 + y^2 = h^2$: cut a cone by a plane parallel to one of its
-# rays, and the cut is a parabola. Dividing by $h$ slides every point along its ray to height 1, and at height 1 the cone is a circle.
+# **Follow one grey ray.** The pink parabola lies on a cone of such rays, $x^2 + y^2 = h^2$: cut a cone by a plane parallel to
+# one of its rays, and the cut is a parabola. Dividing by $h$ slides every point along its ray to height 1, and at height 1 the
+# cone is a circle.
 #
-# The middle weight decides whether the parabola lies on the cone. For an arc of the angle $\alpha$ it must be $\cos(\alpha/2)$ (Farin,
-# *Curves and Surfaces for CAGD*, on conics). A quarter: $\cos 45°$.
+# The middle weight decides whether the parabola lies on the cone. For an arc of the angle $\alpha$ it must be $\cos(\alpha/2)$
+# (Farin, *Curves and Surfaces for CAGD*, on conics). A quarter: $\cos 45°$.
 
 # %% [markdown]
-# And the cone that had to wait? Look at the picture again: a parabola and straight rays, nothing rational. A piece of a round *cone* is a
-# plain Bezier patch, without any weights:
+# And the cone that had to wait? Look at the picture again: a parabola and straight rays, nothing rational. A piece of a round
+# *cone* is a plain Bezier patch, without any weights:
 
 # %%
 piece = dx.BezierPatch(np.stack([0 * lifted, lifted], axis=1))  # from the apex to the three lifted points
@@ -711,11 +725,11 @@ print("degrees along u and w:", piece.control_net.shape[0] - 1, piece.control_ne
 # %% [markdown]
 # ### Weights on a surface
 #
-# Here too one line does it: lift the net, take the B-spline patch, divide. Rational B-splines on any knots are called **NURBS**,
-# *non-uniform rational B-splines*. A larger weight pulls the surface towards its point.
+# Here too one line does it: lift the net, take the B-spline patch, divide. Rational B-splines on any knots are called
+# **NURBS**, *non-uniform rational B-splines*. A larger weight pulls the surface towards its point.
 #
-# Now a quarter of a cylinder of radius 3, made right, and made by somebody who forgot the weights: all 1. Does the wrong one run inside
-# the cylinder or outside?
+# Now a quarter of a cylinder of radius 3, made right, and made by somebody who forgot the weights: all 1. Does the wrong one
+# run inside the cylinder or outside?
 
 # %%
 wrong_runs = None  # "inside" or "outside"
@@ -737,8 +751,8 @@ plot.view(wrong, against=built(quarter_right(**size)), names=("cos 45°", "weigh
 # %% [markdown]
 # ## 11 · The limit: how small may a weight be?
 #
-# Let the middle weight $h$ of the quarter circle go down from $\cos 45°$: the curve flattens. At $h = 0$ the middle point has no share
-# left, and the curve is the straight line between the ends.
+# Let the middle weight $h$ of the quarter circle go down from $\cos 45°$: the curve flattens. At $h = 0$ the middle point has
+# no share left, and the curve is the straight line between the ends.
 #
 # Go on. Where is the point $t = 1/2$ for the weight $-\cos 45°$?
 
@@ -759,13 +773,13 @@ reveal(beyond, f"({up[0] / up[2]:.3f}, {up[1] / up[2]:.3f}), on the far side of 
 figure
 
 # %% [markdown]
-# **What happened?** The equation of the circle does not ask for the sign of $h$. So it is the same circle, but now the *other three
-# quarters*, far outside the hull of the three points. The promises of section 2 all stood on shares between 0 and 1, together 1. With
-# a negative weight they are still together 1, so affine invariance stays. They are no longer between 0 and 1: the hull goes, and
-# variation diminishing with it.
+# **What happened?** The equation of the circle does not ask for the sign of $h$. So it is the same circle, but now the *other
+# three quarters*, far outside the hull of the three points. The promises of section 2 all stood on shares between 0 and 1,
+# together 1. With a negative weight they are still together 1, so affine invariance stays. They are no longer between 0 and 1:
+# the hull goes, and variation diminishing with it.
 #
-# At $h = -1$ the divisor is $(1 - 2t)^2$, and the point at $t = 1/2$ is at infinity. That is why weights must be above 0, here and in
-# most programs:
+# At $h = -1$ the divisor is $(1 - 2t)^2$, and the point at $t = 1/2$ is at infinity. That is why weights must be above 0, here
+# and in most programs:
 
 # %%
 try:
@@ -774,13 +788,19 @@ except dx.WeightError as refused:
     print(refused)
 
 # %% [markdown]
+# ## The answer
+#
+# So how does a point shape a surface that never touches it? By its share. Corners and edges, tangent planes, the hull: all that
+# a net promises is said by shares between 0 and 1, together 1. Knots say *where* a point has a share, weights *how much* of it
+# beside the others.
+#
+# To read on: Farin, *Curves and Surfaces for CAGD*, for the mixing; Piegl and Tiller, *The NURBS Book*, for knots and weights.
+
+# %% [markdown]
 # ## Where to go from here
 #
-# So how does a point shape a surface that never touches it? By its share. Corners and edges, tangent planes, the hull: all that a net
-# promises is said by shares between 0 and 1, together 1. Knots say *where* a point has a share, weights *how much* beside the others.
+# Write them yourself: the shares and the patch in [A6 · Bezier](../A6/bezier.ipynb), knots, basis functions and weights in [A7
+# · B-spline and NURBS](../A7/bspline-and-nurbs.ipynb).
 #
-# Write them yourself: the shares and the patch in [A6 · Bezier](../A6/bezier.ipynb), knots, basis functions and weights in
-# [A7 · B-spline and NURBS](../A7/bspline-and-nurbs.ipynb).
-#
-# Left open: you had to place sixteen points. What if somebody only hands you the four *edges*? That is
-# [A8 · Boundary curves](../A8/boundary-and-solids.ipynb).
+# Left open: you had to place sixteen points. What if somebody hands you the four *edges* only? Then the inner points must come
+# from somewhere, and that is [A8 · Boundary curves](../A8/boundary-and-solids.ipynb).
