@@ -522,8 +522,8 @@ figure.update_layout(height=380, template="none", margin={"t": 40, "b": 50, "l":
 # ## 7 · When knots meet
 #
 # Where two spans meet, a cubic B-spline agrees in point, tangent and second derivative. Now push knots together. How often a
-# knot occurs is its **multiplicity** $\mu$, and each time costs one derivative: at order $k$ they agree up to the
-# $(k - 1 - \mu)$-th.
+# knot occurs is its **multiplicity** $\mu$, and each time costs one derivative: at order $k$ only the first
+# $k - 1 - \mu$ of them still agree.
 #
 # Seven points, $k = 4$, with the knot $t = 2$ once, twice, three times. What will the curve have there, at three?
 
