@@ -140,7 +140,7 @@ def mix(a, b, t):
 
 def casteljau(points, t):
     """The point at t of the Bezier curve of the control points, an array (n, ...)."""
-    while len(points) > 1:
+    for _ in range(len(points) - 1):
         ### BEGIN SOLUTION
         points = mix(points[:-1], points[1:], t)
         ### END SOLUTION
