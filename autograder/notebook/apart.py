@@ -32,7 +32,7 @@ from autograder.notebook.reach import reaching
 MODES = ("calibrated", "apart", "shared")
 Pair = Callable[[], tuple[Any, Any]]
 ROUNDS = 6  # of trying; what still changes its mark then is shared
-VERSION = 2  # of what is remembered and of what can cross: raise it when either changes
+VERSION = 3  # of what is remembered and of what can cross: raise it when either changes
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ def prepare(
         trial = _Trial(steps, ordinary, open_session, open_pair)
         script = dataclasses.replace(trial.settle(), steps=steps)
         _remember(memory, key, script)
-    return _insisted(dataclasses.replace(script, steps=steps, names=_names(steps)), mode)
+    return _insisted(dataclasses.replace(script, steps=steps, names=_names(steps, script.shared)), mode)
 
 
 def _is_test(cell: MasterCell, judged: Collection[str]) -> bool:
@@ -218,10 +218,10 @@ class _Trial:
                 shared[name] = "the notebook in source/ has another text of it than the gradebook"
             elif wanted[name][0] != float(cell.points or 0.0):
                 shared[name] = f"the solution in source/ does not pass it: {wanted[name][1]}"
-        names = _names(self.steps)
         reaching = self._reaching()
         shared = reaching | shared
         for _ in range(ROUNDS):
+            names = _names(self.steps, shared)
             script = Script(self.steps, names, frozenset(self.ordinary) - shared.keys(), dict(shared))
             got = self._apart(script)
             worse = {
@@ -246,7 +246,7 @@ class _Trial:
                     f"the test cell {lost} has to share the learner's process ({shared[lost]}), where the solution "
                     f"in source/ fails it: {worse[lost]}. Does it need a withheld module?"
                 )
-        return Script(self.steps, names, frozenset(), {name: shared.get(name, "unsteady") for name in self.ordinary})
+        return Script(self.steps, (), frozenset(), {name: shared.get(name, "unsteady") for name in self.ordinary})
 
     def _reaching(self) -> dict[str, str]:
         """Test cells of which trying would not show that they need the learner's process."""
@@ -291,13 +291,18 @@ def _less(points: float | None, than: float | None) -> bool:
     return (points or 0.0) < (than or 0.0)
 
 
-def _names(steps: Sequence[Step]) -> tuple[str, ...]:
-    """What solution cells bind and the instructor's other cells mention, less what those bind themselves."""
+def _names(steps: Sequence[Step], shared: Collection[str]) -> tuple[str, ...]:
+    """What solution cells bind and the instructor's other cells mention, less what those bind themselves.
+
+    Test cells that share the learner's process are not run in the tests', so what they bind is the learner's there.
+    """
     bound: set[str] = set()
     others: set[str] = set()
     mentioned: set[str] = set()
     for step in steps:
         tree = _parsed(step.source)
+        if step.test and step.name in shared:
+            continue
         if step.solution:
             bound |= set(_bound(tree.body))
         else:

@@ -1,15 +1,16 @@
 """Which test cells reach into the process of the code that they test, otherwise than by calling it.
 
-A test may take ``np.linalg.solve`` away, lower the recursion limit, make warnings errors or seed the global generator, and
-then call the learner's function. In a process of its own it would set all that for itself alone: the instructor's solution
-passes either way, and so would whoever is to be caught. Trying it out cannot tell, so the text does: this module reads the
-instructor's cells, which are trusted, and errs on the side of the learner's process, where such a test means what it says.
+A test may take ``np.linalg.solve`` or the learner's own ``squares`` away, lower the recursion limit, make warnings errors or
+seed the global generator, and then call the learner's function. In a process of its own it would set all that for itself alone:
+the instructor's solution passes either way, and so would whoever is to be caught. Trying it out cannot tell, so the text does:
+this module reads the instructor's cells, which are trusted, and errs on the side of the learner's process, where such a test
+means what it says.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 SETTINGS = frozenset([
     "MonkeyPatch", "builtins", "catch_warnings", "chdir", "delattr", "errstate", "filterwarnings", "getcontext", "localcontext",
@@ -37,10 +38,12 @@ def reaching(tests: Mapping[str, ast.Module], others: Sequence[ast.Module], solu
         for node in tree.body
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
     }
+    written = {name for tree in solutions for name in _written(tree)}
     found = {}
     for name, tree in tests.items():
         for node in _with_helpers(tree, helpers):
-            what = next((word for word in _words(node, imported) if word in wanted), None) or _patched(node, imported)
+            what = next((word for word in _words(node, imported) if word in wanted), None)
+            what = what or _patched(node, imported) or _deleted(node, written)
             if what is not None:
                 found[name] = f"it uses {what}, which would not reach the code it tests"
                 break
@@ -77,6 +80,19 @@ def _patched(tree: ast.AST, imported: Mapping[str, str]) -> str | None:
                 root = root.value
             if isinstance(root, ast.Name) and root.id in imported:
                 return f"{ast.unparse(node)} of its own"
+    return None
+
+
+def _written(tree: ast.Module) -> Iterator[str]:
+    """The functions and classes of a solution."""
+    yield from (node.name for node in tree.body if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef))
+
+
+def _deleted(tree: ast.AST, written: Collection[str]) -> str | None:
+    """``del squares`` where the learner wrote it: to see whether another function needs it."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Del) and node.id in written:
+            return f"del {node.id}"
     return None
 
 

@@ -85,6 +85,7 @@ REACHES = [
     ("import sys", "assert 'scipy' not in sys.modules\nassert double(1) == 2", "modules"),
     ("import builtins as b", "old, b.sum = b.sum, None\nassert double(1) == 2\nb.sum = old", "builtins"),
     ("import warnings", "with warnings.catch_warnings():\n    assert double(1) == 2", "catch_warnings"),
+    ("", "kept = double\ndel double\nassert kept(1) == 2\ndouble = kept", "del double"),
     ("import numpy as np", "with np.errstate(all='raise'): assert double(1) == 2", "errstate"),
 ]
 
@@ -94,6 +95,14 @@ def test_a_cell_that_sets_something_for_the_code_it_tests_shares_its_process(hel
     trees = [apart._parsed(text) for text in (helper, test, DOUBLE)]
     found = apart.reaching({"test": trees[1]}, trees[:1], trees[2:])
     assert found == {"test": f"it uses {what}, which would not reach the code it tests"}
+
+
+def test_what_a_cell_that_shares_puts_back_is_the_learners_for_the_others(box, tmp_path):
+    """As in the notebook that nbgrader quickstart makes: the last test takes a function away to see who needs it."""
+    twice = "def twice(x): return double(double(x))"
+    taken = "kept = double\ndel double\ntry: twice(1)\nexcept NameError: pass\nelse: assert False\nfinally: double = kept"
+    script = prepared(box, tmp_path, ("a", DOUBLE), ("test_1", "assert double(1) == 2"), ("b", twice), ("test_2", taken))
+    assert (set(script.shared), set(script.apart), script.names) == ({"test_2"}, {"test_1"}, ("double",))
 
 
 PLAIN = "import random, numpy as np\nrandom.seed(1)\nx = np.zeros(3)\nx.flat[0] = random.random()\nassert double(1) == 2"
