@@ -25,7 +25,7 @@ def once_written():
     try:
         yield
     except NotImplementedError:
-        print("This cell waits for your function: write it in the cell above, run that, then run this one again.")
+        print("This cell waits for your function: write it further up, run that cell, then run this one again.")
 
 
 def reveal(guess, answer):
@@ -214,7 +214,7 @@ plot.walk(dx.CircularSweep(across, "z", 1.5 * np.pi), [(0, 0), (0.5, 0), (0.5, 1
 # What counts is how far $D$ has *come*, so $S(u, 0) = G(u)$. And $w$ is the parameter of $D$ now, whatever it measures: at
 # $w = ½$ half of the length need not be done.
 #
-# The straight ridges of the roof shall become arches: the wave is carried along an arch that begins in the same point. Carry the
+# Let the straight ridges of the roof become arches: the wave is carried along an arch that begins in the same point. Now carry the
 # arch along the wave instead. Which surface is that?
 
 # %%
@@ -353,7 +353,7 @@ before = stairs["fixed"].moved(dx.Transform.translate((-5, 0, 0)))
 beyond = stairs["minimal"].moved(dx.Transform.translate((5.5, 0, 0)))
 reveal(staircase, "frenet, in the middle")
 figure = plot.view(stairs["frenet"], also=[before, beyond], title="fixed · Frenet · minimal", lines=4)
-figure.update_layout(scene_camera_eye={"x": 0.1, "y": -0.95, "z": 0.6})
+figure.update_layout(scene_camera_eye={"x": 0.1, "y": -1.05, "z": 0.65})
 
 # %%
 S = stairs["frenet"](u, w)
@@ -558,7 +558,7 @@ plot.view(closed, samples=121, lines=16)
 # *Never turned about the wire, and yet turned at home.* That is no error, and finer steps do not make it go away. On a plane wire
 # the angle is 0. In space it may be anything: it is the torsion, added up along the whole wire, whole turns left out.
 #
-# So a pipe that shall close must give in a little, and say so. The library gives the angle back evenly along the way: the pipe
+# So a pipe that is to close must give in a little, and say so. The library gives the angle back evenly along the way: the pipe
 # above does turn about its wire, as little as closing takes.
 
 # %% [markdown]
