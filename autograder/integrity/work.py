@@ -63,12 +63,17 @@ def read(course: Course, assignment: str) -> Class:
             found.notes.append(f"{student}: {error}")
             continue
         parts: list[Part] = []
+        unread = 0
         for name, data in sorted(notebooks.items()):
             try:
                 parts += _parts(name, parse(data), handed)
             except SubmissionError as error:
                 found.notes.append(f"{student}, {name}: {error}")
-        found.parts[student] = _bounded(parts, student, found.notes)
+                unread += 1
+        if not notebooks:
+            found.notes.append(f"{student}: there is no notebook")
+        elif unread < len(notebooks):
+            found.parts[student] = _bounded(parts, student, found.notes)
     return found
 
 

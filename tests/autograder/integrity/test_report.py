@@ -130,9 +130,12 @@ def test_hostile_submissions_are_named_and_the_others_compared(course):
     hand_in("flood", notebook({"cylinder": "((((" * MOST_CODE}))
     os.mkfifo(folder / "submitted" / "zoe" / "A1" / "pipe.ipynb")
     report = integrity.similar(Course(folder), "A1", top=5)
+    handed_in = {path.parent.name for path in (folder / "submitted").glob("*/A1")}
+    assert report.found.students == len(handed_in - {"linked", "broken"})
     assert {"max", "zoe", "odd"} == {student for pair in report.found.striking for student in pair.students}
     notes = " ".join(report.notes)
     assert "broken, known-forms: the notebook is not valid JSON" in notes
+    assert "linked: there is no notebook" in report.notes
     assert f"flood: more than {MOST_CODE} characters" in notes
     json.dumps(report.to_dict(), allow_nan=False).encode()
     shown(report)
