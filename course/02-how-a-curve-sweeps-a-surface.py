@@ -313,6 +313,7 @@ with once_written():
     holds("each hoop stands across the wire", (arm * bend.tangent(w)).sum(-1))
     inside = pipe(0, w, bend, 1) - (0, 0, 3)
     holds("the inside of this bend is a circle, of radius 3 - 1", np.linalg.norm(inside, axis=-1), 2)
+    holds("a quarter of the way round lies on b, here (0, -1, 0)", pipe(0.25, w, bend, 1) - bend(w), (0, -1, 0))
 
 # %% [markdown]
 # ## 6 · A third way, and who can see it
