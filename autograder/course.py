@@ -15,13 +15,11 @@ inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our ow
 
 from __future__ import annotations
 
-import ast
 import contextlib
 import dataclasses
 import functools
 import hashlib
 import importlib
-import logging
 import os
 import re
 import sys
@@ -29,16 +27,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from traitlets.config.loader import (
-    Config,
-    ConfigFileNotFound,
-    DeferredConfigList,
-    DeferredConfigString,
-    JSONFileConfigLoader,
-    PyFileConfigLoader,
-)
+from traitlets.config.loader import Config
 
-from autograder import catalogue
+from autograder import catalogue, settings
 from autograder.catalogue import Catalogue
 from autograder.errors import CourseError
 from autograder.exercise import Exercise
@@ -53,19 +44,7 @@ from autograder.sandbox import kernel
 if TYPE_CHECKING:
     from autograder.gradebook import Gradebook
 
-CONFIG = "nbgrader_config"
 ENGINES = ("ipython", "jupyter")
-# Sections that nbgrader's classes inherit settings from, the nearest first.
-INHERITED = {
-    "Autograde": ("Autograde", "BaseConverter"),
-    "GenerateFeedback": ("GenerateFeedback", "BaseConverter"),
-    "Execute": ("Execute", "ExecutePreprocessor", "NbGraderPreprocessor"),
-    "OverwriteCells": ("OverwriteCells", "NbGraderPreprocessor"),
-    "IgnorePattern": ("IgnorePattern", "NbGraderPreprocessor"),
-    "LimitOutput": ("LimitOutput", "NbGraderPreprocessor"),
-    "AssignLatePenalties": ("AssignLatePenalties", "NbGraderPreprocessor"),
-    "LateSubmissionPlugin": ("LateSubmissionPlugin", "BasePlugin"),
-}
 
 
 class Course:
@@ -81,14 +60,15 @@ class Course:
     Raises
     ------
     CourseError
-        If it is no folder, or its configuration cannot be read.
+        If it is no folder, or its configuration cannot be read or has a setting of ours that there is not.
     """
 
     def __init__(self, path: Path | str, config: Config | None = None) -> None:
         self.folder = Path(path).resolve()
         if not self.folder.is_dir():
             raise CourseError(f"no such folder: {path}; a course is a folder with nbgrader_config.py")
-        self.config = load_config(self.folder) if config is None else config
+        self.config = settings.load(self.folder) if config is None else config
+        settings.refuse_unknown(self.config)
         self.root = (self.folder / str(self.get("CourseDirectory", "root", ""))).resolve()
 
     def __repr__(self) -> str:
@@ -96,10 +76,7 @@ class Course:
 
     def get(self, section: str, name: str, default: Any) -> Any:
         """A setting under its section or one that the section inherits from."""
-        for known in INHERITED.get(section, (section,)):
-            if known in self.config and name in self.config[known]:
-                return _resolved(self.config[known][name])
-        return default
+        return settings.found(self.config, section, name, default)
 
     @property
     def id(self) -> str:
@@ -341,32 +318,6 @@ class Course:
         return room
 
 
-def load_config(folder: Path) -> Config:
-    """Settings from Jupyter's configuration folders and the course folder, the course's last, as nbgrader merges them."""
-    from jupyter_core.paths import jupyter_config_path
-
-    merged = Config()
-    sys.path.insert(0, str(folder))  # nbgrader does so too: a course may import its own plug-ins
-    try:
-        for place in [*reversed([Path(path) for path in jupyter_config_path()]), folder]:
-            for loader in (JSONFileConfigLoader, PyFileConfigLoader):
-                suffix = ".py" if loader is PyFileConfigLoader else ".json"
-                if (place / (CONFIG + suffix)).is_file():
-                    merged.merge(_loaded(loader, CONFIG + suffix, place))
-    finally:
-        sys.path.remove(str(folder))
-    return merged
-
-
-def _loaded(loader: Any, name: str, place: Path) -> Config:
-    try:
-        return loader(name, path=str(place), log=logging.getLogger(__name__)).load_config()  # type: ignore[no-any-return]
-    except ConfigFileNotFound:
-        return Config()
-    except Exception as error:
-        raise CourseError(f"{place / name} cannot be read: {type(error).__name__}: {error}") from error
-
-
 def _imported(given: Any, folder: Path) -> Callable[..., Any]:
     if not isinstance(given, str):
         return given  # type: ignore[no-any-return]
@@ -378,17 +329,6 @@ def _imported(given: Any, folder: Path) -> Callable[..., Any]:
         raise CourseError(f"the late policy {given!r} cannot be imported: {error}") from error
     finally:
         sys.path.remove(str(folder))
-
-
-def _resolved(value: Any) -> Any:
-    """A setting as it is meant: one from the command line is a string whose type its trait would have decided."""
-    if isinstance(value, DeferredConfigList):
-        return [_resolved(DeferredConfigString(item)) for item in value]
-    if isinstance(value, DeferredConfigString):
-        with contextlib.suppress(ValueError, SyntaxError):
-            return ast.literal_eval(str(value))
-        return str(value)
-    return value
 
 
 def _dangling(path: Path) -> bool:

@@ -17,7 +17,7 @@ from typing import Any
 
 import nbformat
 
-from autograder import catalogue
+from autograder import catalogue, settings
 from autograder.errors import CourseError
 from autograder.notebook import source
 
@@ -85,8 +85,6 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     """
     from nbgrader.apps import NbGraderAPI  # slow to import, and only needed here
 
-    from autograder.course import load_config
-
     if not (course / catalogue.CONFIG).is_file():
         raise CourseError(f"{course} is not a course: it has no nbgrader_config.py; make one with `directrix new FOLDER`")
     own = _own_assignment(course, name)
@@ -100,7 +98,7 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     if not (course / "source" / name).is_dir():
         there = sorted(path.name for path in (course / "source").glob("*") if path.is_dir())
         raise CourseError(f"no assignment {name!r} in {course / 'source'}; there are: {', '.join(there) or 'none'}")
-    config: Any = load_config(course.resolve())
+    config: Any = settings.load(course.resolve())
     config.CourseDirectory.root = str(course.resolve())
     with _quiet("traitlets"), _tools_on_path():
         result = NbGraderAPI(config=config).generate_assignment(name, force=True, create=True)

@@ -71,6 +71,21 @@ def test_a_configuration_that_fails_is_named(tmp_path):
         Course(tmp_path / "nothing")
 
 
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("c.Sandbox.withold = ['answers']", r"c.Sandbox.withold; is c.Sandbox.withhold meant\?"),
+        ("c.Directrix.pakages = ('scipy',)", r"c.Directrix.pakages; is c.Directrix.packages meant\?"),
+        ("c.Sandbox.x = 1", r"c.Sandbox.x; c.Sandbox has tests, withhold, engine"),
+    ],
+)
+def test_a_misspelt_setting_of_ours_is_refused(tmp_path, line, said):
+    """traitlets passes over it, and learners could import what is to be kept from them."""
+    (tmp_path / "nbgrader_config.py").write_text(f"c = get_config()\n{line}\n")
+    with pytest.raises(CourseError, match=said):
+        Course(tmp_path)
+
+
 def test_submissions_are_found_by_student(tmp_path):
     made = course(tmp_path)
     for place in ("ada/A1", "bob/A1", "bob/A2", ".hidden/A1", "[x]/A1"):
