@@ -66,7 +66,7 @@ app.add_typer(author.author, name="author")
 
 def main() -> None:
     """Run the command line; an error made on purpose is one plain line, not a traceback."""
-    gc.set_threshold(50_000, 20, 100)  # loading makes many objects and no garbage; looking for some takes a quarter of the time
+    gc.set_threshold(10_000, 20, 100)  # loading makes many objects and no garbage; looking for some takes a quarter of the time
     try:
         app()
     except DirectrixError as error:
