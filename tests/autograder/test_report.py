@@ -147,7 +147,7 @@ def test_what_a_larger_class_takes_to_show_does_not_grow(monkeypatch):
     """The most that is held at a time; kept rows of this class would take 2 KB each."""
     monkeypatch.setattr(report, "PAGE", 10)
     peaks = []
-    for count in (20, 20, 120):  # the first time things are loaded and remembered
+    for count in (120, 20, 120):  # the first time things are loaded and remembered
         tracemalloc.start()
         try:
             with open(os.devnull, "w") as nowhere:

@@ -11,6 +11,11 @@ from plotly.offline import get_plotlyjs
 pytestmark = pytest.mark.browser
 SCENES = "() => ['scene', 'scene2'].map(s => document.querySelector('.js-plotly-plot')._fullLayout[s]._scene.getCamera().eye)"
 
+CAMERAS = """() => {
+  const layout = document.querySelector('.js-plotly-plot')._fullLayout;
+  return Object.fromEntries(['scene', 'scene2'].map(s => [s + '.camera', JSON.parse(JSON.stringify(layout[s].camera))]));
+}"""
+
 
 def document(*figures, gap=0):
     body = f'<div style="height:{gap}px"></div>'.join(page.fragment(figure) for figure in figures)
@@ -50,11 +55,22 @@ def opened(browser, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def pair(browser, two, tmp_path_factory):
-    """One page with a comparison, for the tests that only turn it."""
+def one_page(browser, two, tmp_path_factory):
+    """One page with a comparison, and where its cameras stand."""
     pages = Opened(browser, tmp_path_factory.mktemp("pair"))
-    yield pages(document(two))
+    shown = pages(document(two))
+    yield shown, eyes(shown), shown.evaluate(CAMERAS)
     pages.close()
+
+
+@pytest.fixture
+def pair(one_page):
+    """That page as it was at first, for the tests that only turn it."""
+    shown, start, cameras = one_page
+    shown.evaluate("cameras => Plotly.relayout(document.querySelector('.js-plotly-plot'), cameras)", cameras)
+    settled(shown, lambda now: np.allclose(now, start, atol=1e-3))
+    yield shown
+    shown.mouse.up()
 
 
 @pytest.fixture(scope="module")
