@@ -50,17 +50,18 @@ AUTOGRADER = {
     "notebook": ("judge", "sandbox", "card", "catalogue", "uses"),
     "feedback": ("course",),
     "bridge": ("feedback",),
+    "site": ("feedback",),
     "fleet": ("bridge",),
     "authoring": ("course",),
     "demo": ("catalogue", "notebook"),
     "report": ("fleet",),
     "collect": ("fleet",),
     "integrity": ("report",),
-    "cli": ("integrity", "collect", "report", "doctor", "demo", "authoring", "checking"),
+    "cli": ("integrity", "site", "collect", "report", "doctor", "demo", "authoring", "checking"),
     "__main__": ("cli",),
 }
 # Which rooms of the library the autograder's rooms may see: cards draw; everything else judges callables and arrays.
-DRAWS = {"card", "checking", "feedback", "bridge"}
+DRAWS = {"card", "checking", "feedback", "bridge", "site"}
 
 
 def allowed(rooms: dict[str, tuple[str, ...]], room: str) -> set[str]:

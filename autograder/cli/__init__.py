@@ -13,7 +13,7 @@ from typing import Annotated
 
 import typer
 
-from autograder.cli import author, collecting, course, grading, machine, reading
+from autograder.cli import author, collecting, course, grading, machine, publishing, reading
 from autograder.cli.options import paragraphs
 from autograder.errors import DirectrixError
 
@@ -57,7 +57,8 @@ def everywhere(
 
 VERBS: tuple[Callable[..., None], ...] = (
     course.demo, course.new, course.release, course.lab, grading.check, collecting.collect,
-    grading.grade, grading.feedback, reading.report, reading.similar, reading.marks, reading.export, machine.doctor,
+    grading.grade, grading.feedback, reading.report, reading.similar, reading.marks, reading.export, publishing.site,
+    machine.doctor,
 )  # fmt: skip
 for verb in VERBS:
     app.command(help=paragraphs(verb))(verb)

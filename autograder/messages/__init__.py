@@ -4,7 +4,7 @@
 here: they stand in the assignment, beside what they speak of.
 
 judged   what the judge says of an answer
-shown    what stands around it: headings, the table, cards where nothing can be judged, the figure, the feedback page
+shown    what stands around it: headings, the table, cards where nothing can be judged, the figure, feedback page and site
 graded   what grading writes into a notebook: no mark and why, what was stopped, what was cut
 """
 

@@ -1,4 +1,4 @@
-"""What stands around a judgement: headings, the table, cards where nothing can be judged, the figure, the feedback page."""
+"""What stands around a judgement: headings, the table, cards where nothing can be judged, the figure, the pages."""
 
 from __future__ import annotations
 
@@ -180,4 +180,27 @@ SHOWN: dict[str, str] = {
     "feedback.hidden": "in a hidden test",
     "feedback.hidden_error": "{exception} in a hidden test",
     "feedback.hidden_text": "(not shown: it quotes a hidden test)",
+    # --- the site of the walkthroughs
+    "site.title": "Surface modelling, by writing the surfaces",
+    "site.lead": "Each chapter asks one question. Guess first, turn the figures, then open the answer.",
+    "site.chapters": "Chapters",
+    "site.all": "All chapters",
+    "site.contents": "Contents",
+    "site.skip": "To the text",
+    "site.read": "Read",
+    "site.before": "Before this",
+    "site.after": "Next",
+    "site.how": "Every cell of this page was run once. To change it and run it yourself, take the notebook.",
+    "site.how_solved": (
+        "Every cell of this page was run once, with one solution of each gap in place. To write your own, take the notebook."
+    ),
+    "site.download": "Download the notebook",
+    "site.open": "or type {command} and open {place}",
+    "site.drawing": "A drawing of {names}.",
+    "site.unfold": "Open every answer",
+    "site.print": "Print, figures included",
+    "site.guess": "Your guess",
+    "site.compare": "Compare",
+    "site.answer": "The answer",
+    "site.one_way": "Show one way",
 }

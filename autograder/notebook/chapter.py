@@ -15,6 +15,7 @@ from autograder.notebook.text import Cell, Notebook, assembled, new_cell, read, 
 
 NAME = re.compile(r"\d\d-[a-z0-9-]+\.py")
 OPTIONS = {"fold"}
+GUESS = re.compile(r"(\w+) = None\b[ \t]*(?:#[ \t]*(.*))?")
 
 
 def chapters(folder: Path | None = None) -> list[Path]:
@@ -25,6 +26,12 @@ def chapters(folder: Path | None = None) -> list[Path]:
 def title(path: Path) -> str:
     """The heading of a chapter."""
     return _title(read(path))
+
+
+def guess_of(source: str) -> str | None:
+    """The name that the reader is asked to fill in, where a cell begins with ``name = None``."""
+    found = GUESS.match(source)
+    return found[1] if found else None
 
 
 def build_chapter(path: Path, *, solutions: bool = False) -> Notebook:

@@ -12,10 +12,10 @@ from autograder.comparison.answers import Reason
 from autograder.comparison.symmetry import SURFACE_NAMES
 
 HOUSE = Path(messages.__file__).parents[1]
-ROOMS = ("comparison", "diagnosis", "card", "checking", "notebook", "feedback")
+ROOMS = ("comparison", "diagnosis", "card", "checking", "notebook", "feedback", "site")
 SINGLE = ("judge.py", "gradebook/book.py")
 SOURCES = [*(HOUSE / path for path in SINGLE), *(path for room in ROOMS for path in sorted((HOUSE / room).glob("*.py")))]
-ASKING = [*SOURCES, HOUSE / "messages" / "__init__.py", *(HOUSE / "feedback").glob("*.j2")]
+ASKING = [*SOURCES, HOUSE / "messages" / "__init__.py", *(HOUSE / "feedback").glob("*.j2"), *(HOUSE / "site").glob("*.j2")]
 WRITTEN = "\n".join(path.read_text("utf-8") for path in ASKING)
 
 

@@ -24,6 +24,7 @@ SPEAKING = [
     # Of these rooms, what writes into a learner's notebook; the other files read submissions and speak to instructors.
     *(HOUSE / "notebook" / f"{name}.py" for name in ("run", "marks", "rebuild", "kernel", "limit", "safe", "score", "told")),
     HOUSE / "gradebook" / "book.py",
+    HOUSE / "site" / "page.py",
 ]
 NAMES = {*get_args(Tier), *get_args(Outcome)}  # values of a type, never shown themselves
 # Words that no learner reads, or that are no words: the file, how the literal begins, and why it may stand there.
@@ -32,7 +33,7 @@ ALLOWED = {
     ("rendering.py", "border-bottom: "): "a style",
     ("rendering.py", "font-weight: "): "a style",
     ("page.py", "default-src 'none'"): "a Content-Security-Policy",
-    ("page.py", "@media (prefers"): "a style",
+    ("cells.py", "@media screen and"): "a style",
     ("__init__.py", "check() gives no marks inside"): "for the instructor who grades without the bridge",
     ("gates.py", "read only"): "what NumPy says of its arrays",
     ("gates.py", "positional argument"): "what Python says of a call",
@@ -126,9 +127,10 @@ def f(n):
     assert found == {"for learners indeed", "Look at", "it takes  arguments", "Worth", "<b>Data sets:</b>"}
 
 
-def test_the_template_of_the_feedback_page_has_no_words():
+@pytest.mark.parametrize("template", ["feedback/page.html.j2", "site/chapter.html.j2", "site/index.html.j2"])
+def test_the_template_of_a_page_has_no_words(template):
     """Tags and what is filled in are all of it."""
-    page = (HOUSE / "feedback" / "page.html.j2").read_text("utf-8")
+    page = re.sub(r"<code>[^<]*</code>", "", (HOUSE / template).read_text("utf-8"))
     bare = re.sub(r"\{\{.*?\}\}|\{%.*?%\}", "", page)
     labels = re.findall(r'(?:aria-label|alt|title)="([^"]*)"', bare)
     assert re.findall(r"[^\W\d_]{2,}", re.sub(r"<[^>]*>", " ", bare)) == []

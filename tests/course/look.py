@@ -5,8 +5,6 @@ PNG a screenful. ``--released`` runs the learner's version with its stubs, ``--p
 """
 
 import argparse
-import html
-import json
 import re
 import shutil
 import sys
@@ -15,21 +13,12 @@ from pathlib import Path
 from typing import Any
 
 import nbclient
-from latex2mathml.converter import convert
-from nbconvert.filters import ansi2html, markdown2html_mistune
 from plotly.offline import get_plotlyjs
-from pygments import highlight
-from pygments.formatters import HtmlFormatter
-from pygments.lexers import PythonLexer
 
-STYLE = """
-body { font: 15px/1.5 system-ui, 'DejaVu Sans', sans-serif; max-width: 900px; margin: 2em auto; color: #222; }
-pre { font: 13px/1.4 'DejaVu Sans Mono', monospace; margin: 0; white-space: pre-wrap; }
-.code { background: #f5f5f5; border-left: 3px solid #ccc; padding: 8px 10px; margin: 14px 0 4px; }
-.code.fold { color: #999; } .out { padding: 2px 10px; } .error { background: #fdd; }
-code { background: #f2f2f2; padding: 0 3px; } table { border-collapse: collapse; } td, th { padding: 3px 10px; }
-"""
-
+from autograder import feedback
+from autograder.feedback.cells import code_html, folded, output_html, style
+from autograder.feedback.markdown import to_html
+from autograder.notebook.chapter import guess_of
 
 MOST_SCENES = 14  # a browser keeps 16 WebGL contexts alive on one page
 
@@ -55,8 +44,8 @@ def guesses(nb: Any) -> dict[str, int]:
     """Names that the reader is asked to fill in, and the cell where."""
     found = {}
     for number, cell in enumerate(nb.cells):
-        if cell.cell_type == "code" and (match := re.match(r"(\w+) = None\b", cell.source)):
-            found[match[1]] = number
+        if cell.cell_type == "code" and (name := guess_of(cell.source)):
+            found[name] = number
     return found
 
 
@@ -66,11 +55,6 @@ def typed(nb: Any) -> dict[str, int]:
     for guess, number in asked.items():
         nb.cells[number].source = re.sub(rf"^{guess} = None", f"{guess} = 'typed'", nb.cells[number].source)
     return asked
-
-
-def folded(cell: Any) -> bool:
-    """Whether the cell's code is folded away."""
-    return cell.metadata.get("jupyter", {}).get("source_hidden", False)
 
 
 def executed(nb: Any, folder: Path, *, allow_errors: bool = False) -> Any:
@@ -87,43 +71,21 @@ def executed(nb: Any, folder: Path, *, allow_errors: bool = False) -> Any:
 
 def page(nb: Any) -> str:
     """One self-contained HTML page of an executed notebook."""
-    body = [_prose(cell.source) if cell.cell_type == "markdown" else _code(cell) for cell in nb.cells]
-    colours = HtmlFormatter().get_style_defs(".code")
-    return f"<!doctype html><meta charset=utf-8><style>{STYLE}{colours}</style><script>{get_plotlyjs()}</script>{''.join(body)}"
-
-
-def _prose(text: str) -> str:
-    def math(found: re.Match[str]) -> str:
-        display = "block" if found[0].startswith("$$") else "inline"
-        return convert(found[1] or found[2], display=display)
-
-    return (
-        f"<section>{markdown2html_mistune(re.sub(r'[$][$](.+?)[$][$]|[$]([^$]+)[$]', math, text, flags=re.DOTALL))}</section>"
-    )
+    body = [f"<section>{to_html(cell.source)}</section>" if cell.cell_type == "markdown" else _code(cell) for cell in nb.cells]
+    colours = style(Path(feedback.__file__).with_name("page.css"))
+    return f"<!doctype html><meta charset=utf-8><style>{colours}</style><script>{get_plotlyjs()}</script>{''.join(body)}"
 
 
 def _code(cell: Any) -> str:
-    folded = cell.metadata.get("jupyter", {}).get("source_hidden")
-    source = "▸ folded cell" if folded else highlight(cell.source, PythonLexer(), HtmlFormatter(nowrap=True))
-    return f"<div class='code{' fold' if folded else ''}'><pre>{source}</pre></div>" + "".join(map(_output, cell.outputs))
-
-
-def _output(output: Any) -> str:
-    if output.output_type == "stream":
-        return f"<div class=out><pre>{html.escape(output.text)}</pre></div>"
-    if output.output_type == "error":
-        return f"<div class='out error'><pre>{ansi2html(chr(10).join(output.traceback))}</pre></div>"
-    data = output.data
-    if "application/vnd.plotly.v1+json" in data:
-        figure = json.dumps(data["application/vnd.plotly.v1+json"]).replace("</", "<\\/")
-        return f"<div class=out><div class=fig></div><script type=application/json class=figure>{figure}</script></div>"
-    return f"<div class=out>{data.get('text/html') or '<pre>' + html.escape(data.get('text/plain', '')) + '</pre>'}</div>"
+    source = "▸ folded cell" if folded(cell) else code_html(cell.source)
+    outputs = "".join(output_html(output, admit=lambda drawn: drawn)[0] for output in cell.outputs)
+    return f"<section class='code cell'><div class=source>{source}</div><div class=outputs>{outputs}</div></section>"
 
 
 # Few scenes at a time, as a browser keeps 16 WebGL contexts: each figure becomes a picture once it is drawn.
 DRAW = """async () => {
-  for (const data of document.querySelectorAll('script.figure')) {
-    const place = data.previousElementSibling, figure = JSON.parse(data.textContent);
+  for (const place of document.querySelectorAll('.directrix-figure')) {
+    const figure = JSON.parse(place.querySelector('script').textContent);
     await Plotly.newPlot(place, figure.data, figure.layout, {staticPlot: true});
     if (figure.frames) await Plotly.addFrames(place, figure.frames);
     const png = await Plotly.toImage(place, {format: 'png', width: 860, height: figure.layout.height || 450});

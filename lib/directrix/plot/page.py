@@ -37,7 +37,7 @@ def head(*, plotly_url: str | None = None) -> str:
     """
     if plotly_url is None:
         return f'<script type="application/gzip" id="directrix-packed">{_packed()}</script>\n<script>{UNPACK}</script>'
-    return f'<script src="{html.escape(plotly_url, quote=True)}"></script>\n<script>{_closed(figures_js())}</script>'
+    return f'<script src="{html.escape(plotly_url, quote=True)}" defer></script>\n<script>{_closed(figures_js())}</script>'
 
 
 def running_scripts() -> tuple[str, ...]:

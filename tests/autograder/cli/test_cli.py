@@ -28,6 +28,7 @@ VERBS = [
     "similar",
     "marks",
     "export",
+    "site",
     "doctor",
 ]
 
