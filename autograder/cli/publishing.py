@@ -31,8 +31,21 @@ def site(
     with console.status("") as status:
         built = sites.build(out, chapters, progress=lambda title: status.update(f"running: {title}"))
     for one in built.chapters:
-        said = f"{one.page}: {one.title} ({one.figures} figures, {one.guesses} guesses, {one.solutions} solutions)"
-        console.print(said, highlight=False, markup=False)
+        counts = [
+            _counted(one.figures, "figure"),
+            _counted(one.guesses, "guess", "guesses"),
+            _counted(one.solutions, "solution"),
+        ]
+        console.print(f"{one.page}: {one.title} ({', '.join(counts)})", highlight=False, markup=False)
+    if not any(one.solutions for one in built.chapters):
+        console.print(
+            "No chapter has a solution to show. An installed package brings the chapters without theirs; a checkout has them.",
+            highlight=False, markup=False,
+        )  # fmt: skip
     console.print(f"Open {built.folder / 'index.html'} in a browser", highlight=False, markup=False, soft_wrap=True)
     if as_json:
         print(json.dumps(built.to_dict()))
+
+
+def _counted(count: int, one: str, more: str = "") -> str:
+    return f"{count} {one if count == 1 else more or f'{one}s'}"
