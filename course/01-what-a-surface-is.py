@@ -7,37 +7,10 @@
 # out what can go wrong with it, and ends where a doughnut becomes a ball. It takes about an hour. Type your guess before you run
 # the cell that answers; nobody marks it.
 
-# %% fold=true
-import contextlib
-
+# %% setup=true
 import directrix as dx
-import numpy as np
-import plotly.graph_objects as go
-from directrix import plot
 
-from autograder import check
 from autograder.catalogue import shipped
-
-
-@contextlib.contextmanager
-def once_written():
-    """Lets a cell wait quietly while the function that it uses is still a stub."""
-    try:
-        yield
-    except NotImplementedError:
-        print("This cell waits for your function: write it in the cell above, run that, then run this one again.")
-
-
-def reveal(guess, answer):
-    """Your guess beside the answer."""
-    print("First type your guess in the cell above." if guess is None else f"You said {guess}; it is {answer}.")
-
-
-def holds(claim, left, right=0.0):
-    """Whether left = right everywhere, to rounding."""
-    gap = np.max(np.abs(np.asarray(left, float) - np.asarray(right, float)))
-    print(f"yes  {claim}" if gap < 1e-9 else f"NO   {claim}: they differ by up to {gap:.3g}")
-
 
 # %% [markdown]
 # ## 1 · A sheet, and a tube

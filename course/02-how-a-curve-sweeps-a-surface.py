@@ -9,34 +9,10 @@
 # too thick for its bend. Take two evenings: sections 1 to 4, then 5 to 10, where you write three functions. Guess before you
 # look: the answers that surprise you are those that stay.
 
-# %% fold=true
-import contextlib
-
+# %% setup=true
 import directrix as dx
-import numpy as np
-from directrix import plot
 
 from autograder.catalogue import shipped
-
-
-@contextlib.contextmanager
-def once_written():
-    """Lets a cell wait quietly while the function that it uses is still a stub."""
-    try:
-        yield
-    except NotImplementedError:
-        print("This cell waits for your function: write it further up, run that cell, then run this one again.")
-
-
-def reveal(guess, answer):
-    """Your guess beside the answer."""
-    print("First type your guess in the cell above." if guess is None else f"You said {guess}; it is {answer}.")
-
-
-def holds(claim, left, right=0.0):
-    """Whether left = right everywhere, to rounding."""
-    gap = np.max(np.abs(np.asarray(left, float) - np.asarray(right, float)))
-    print(f"yes  {claim}" if gap < 1e-9 else f"NO   {claim}: they differ by up to {gap:.3g}")
 
 
 def points(x, y, z):

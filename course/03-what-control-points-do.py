@@ -10,37 +10,12 @@
 # It takes about two hours, and halfway there is a good place to stop for tonight. Type your guess before you run the cell that
 # answers; nobody marks it.
 
-# %% fold=true
-import contextlib
-
+# %% setup=true
 import directrix as dx
-import numpy as np
-import plotly.graph_objects as go
-from directrix import plot
 from directrix.plot import palette
 from plotly.subplots import make_subplots
 
 from autograder.catalogue import shipped
-
-
-@contextlib.contextmanager
-def once_written():
-    """Lets a cell wait quietly while the function that it uses is still a stub."""
-    try:
-        yield
-    except NotImplementedError:
-        print("This cell waits for your function: write it in the cell above, run that, then run this one again.")
-
-
-def reveal(guess, answer):
-    """Your guess beside the answer."""
-    print("First type your guess in the cell above." if guess is None else f"You said {guess}; it is {answer}.")
-
-
-def holds(claim, left, right=0.0):
-    """Whether left = right everywhere, to rounding."""
-    gap = np.max(np.abs(np.asarray(left, float) - np.asarray(right, float)))
-    print(f"yes  {claim}" if gap < 1e-9 else f"NO   {claim}: they differ by up to {gap:.3g}")
 
 
 def flat(*places):
@@ -293,7 +268,7 @@ plot.walk(sail, [(0, 0), (1, 0), (1, 1)])
 #
 # Shares between 0 and 1, together 1, so the promises come along: the four **corners**; the four **edges**, which are the Bezier
 # curves of the outer rows and columns; the **convex hull**; **affine invariance**. (Not the fourth. For surfaces no
-# variation-diminishing property is known: Piegl and Tiller, *The NURBS Book*, section 3.4.)
+# variation-diminishing property is known: Piegl and Tiller, *The NURBS Book*, section 1.5.)
 #
 # And at each corner the net lies *on* the surface's **tangent plane**. Three control points make a plane. Which three at
 # $S(0, 0)$?

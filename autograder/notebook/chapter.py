@@ -1,8 +1,9 @@
 """The walkthroughs: finds the chapters of ``course/`` and builds each into a notebook for a reader.
 
 A chapter is one text in the form of :mod:`autograder.notebook.text`, named ``NN-its-question.py``. Its first cell is prose and
-begins with ``# Title``. Cells may be marked ``fold=true`` (the code is there, folded away); a code cell may hold a solution
-between markers, which the reader receives as a stub. A chapter has no graded cells and may use the whole library.
+begins with ``# Title``. A cell marked ``setup=true`` brings the helpers that assignments have too, with its own lines after
+them; cells may be marked ``fold=true`` (the code is there, folded away); a code cell may hold a solution between markers, which
+the reader receives as a stub. A chapter has no graded cells and may use the whole library.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from autograder import catalogue
 from autograder.notebook.text import Cell, Notebook, assembled, new_cell, read, region, stubbed
 
 NAME = re.compile(r"\d\d-[a-z0-9-]+\.py")
-OPTIONS = {"fold"}
+OPTIONS = {"fold", "setup"}
 GUESS = re.compile(r"(\w+) = None\b[ \t]*(?:#[ \t]*(.*))?")
 
 
@@ -60,5 +61,5 @@ def _built(cell: Cell, number: int, solutions: bool) -> dict[str, object]:
         raise cell.error(f"unknown option {unknown[0]!r} after '# %%'; a chapter knows {', '.join(sorted(OPTIONS))}")
     if cell.kind == "markdown" and region(cell) is not None:
         raise cell.error("a solution stands in a code cell; in prose everybody reads it")
-    metadata = {"jupyter": {"source_hidden": True}} if cell.options.get("fold") else {}
+    metadata = {"jupyter": {"source_hidden": True}} if any(map(cell.options.get, OPTIONS)) else {}
     return new_cell(cell.kind, cell.source if solutions else stubbed(cell), f"cell-{number:02d}", metadata)

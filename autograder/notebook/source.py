@@ -12,7 +12,6 @@ import copy
 import difflib
 import hashlib
 import inspect
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
@@ -22,7 +21,19 @@ from autograder.catalogue import Assignment
 from autograder.errors import CourseError
 from autograder.exercise import Exercise
 from autograder.notebook.chapter import build_chapter, chapters
-from autograder.notebook.text import BEGIN, CODE_STUB, TEXT_STUB, Cell, Notebook, assembled, new_cell, read, region, stubbed
+from autograder.notebook.text import (
+    BEGIN,
+    CODE_STUB,
+    TEXT_STUB,
+    Cell,
+    Notebook,
+    assembled,
+    new_cell,
+    read,
+    region,
+    setup_source,
+    stubbed,
+)
 
 Role = Literal["solution", "check", "written", "locked", "setup"]
 ROLES: tuple[Role, ...] = ("solution", "check", "written", "locked", "setup")
@@ -104,8 +115,6 @@ def _checksum(cell: Any) -> str:
 def _built(cell: Cell, number: int, assignment: Assignment, seen: dict[str, Cell], *, solutions: bool) -> dict[str, Any]:
     role = _role(cell)
     source = cell.source if solutions else stubbed(cell)
-    if role == "setup":
-        source = f"{setup_source()}\n{source}".strip("\n")
     metadata: dict[str, Any] = {}
     if role is not None:
         nbgrader = _nbgrader(cell, role, assignment)
@@ -122,11 +131,6 @@ def _built(cell: Cell, number: int, assignment: Assignment, seen: dict[str, Cell
     return new_cell(cell.kind, source, name, metadata)
 
 
-def setup_source() -> str:
-    """The first code cell of every assignment: imports, and the helpers that its other cells use."""
-    return files("autograder.notebook").joinpath("setup_cell.txt").read_text("utf-8").strip("\n")
-
-
 def _role(cell: Cell) -> Role | None:
     unknown = [key for key in cell.options if key not in OPTIONS]
     if unknown:
@@ -139,7 +143,7 @@ def _role(cell: Cell) -> Role | None:
         raise cell.error('points belong to a graded cell; write check="..." or written="..." beside them')
     if cell.options.get("fold") and (cell.kind != "code" or role in ("solution", "check")):
         raise cell.error("fold=true hides code that need not be read; a task, a check and prose are to be seen")
-    if role in ("solution", "check", "setup") and cell.kind != "code":
+    if role in ("solution", "check") and cell.kind != "code":
         raise cell.error(f"a {role} cell holds code; take [markdown] away")
     if role == "written" and cell.kind != "markdown":
         raise cell.error("a written answer is a [markdown] cell")

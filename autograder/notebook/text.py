@@ -3,7 +3,7 @@
     # %% [markdown]                          prose
     # %%                                     code that a learner may change
     # %% fold=true                           the same, folded away: a picture whose code teaches nothing
-    # %% setup=true                          imports and the helpers of every assignment (``setup_cell.txt``)
+    # %% setup=true                          imports and the helpers of every notebook (``setup_cell.txt``), then its own lines
     # %% solution="cylinder"                 the task cell of an exercise
     # %% check="cylinder"                    its graded cell, exactly ``check(cylinder)``
     # %% [markdown] written="why" points=3   an answer in words, marked by hand
@@ -18,6 +18,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal, cast
 
@@ -87,7 +88,16 @@ def _cell(cell: Any, path: Path, line: int) -> Cell:
     if cell.cell_type not in ("code", "markdown"):
         raise CourseError(f"{path}:{line}: a cell is code or [markdown]; got {cell.cell_type}")
     source = "\n".join(line.rstrip() for line in cell.source.strip("\n").split("\n"))
+    if "setup" in options:
+        if cell.cell_type != "code":
+            raise CourseError(f"{path}:{line}: a setup cell holds code; take [markdown] away")
+        source = f"{setup_source()}\n\n\n{source}".strip("\n")
     return Cell(cell.cell_type, source, path, line, options)
+
+
+def setup_source() -> str:
+    """The first code cell of every assignment and chapter: imports, and the helpers that its other cells use."""
+    return files("autograder.notebook").joinpath("setup_cell.txt").read_text("utf-8").strip("\n")
 
 
 def region(cell: Cell) -> tuple[int, int] | None:

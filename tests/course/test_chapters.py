@@ -9,7 +9,7 @@ from look import MOST_SCENES, folded, guesses, scenes, typed, words
 from autograder.catalogue import shipped
 from autograder.errors import CourseError
 from autograder.notebook.chapter import build_chapter, chapters, title
-from autograder.notebook.text import CODE_STUB
+from autograder.notebook.text import CODE_STUB, setup_source
 
 CHAPTERS = {path.stem: path for path in chapters()}
 
@@ -35,6 +35,15 @@ def test_cells_hold_one_idea(name):
             assert words(cell.source) <= 110, cell.source
         elif not folded(cell):
             assert cell.source.count("\n") < 18, cell.source
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_helpers_are_those_of_the_assignments(name):
+    """The second cell brings them, folded away; no chapter has a version of its own."""
+    code = [cell for cell in build_chapter(CHAPTERS[name]).cells if cell.cell_type == "code"]
+    assert code[0].source.startswith(setup_source() + "\n")
+    assert folded(code[0])
+    assert not [cell.source for cell in code[1:] if re.search(r"^def (reveal|holds|once_written)\b", cell.source, re.MULTILINE)]
 
 
 @pytest.mark.parametrize("name", CHAPTERS)
@@ -120,6 +129,7 @@ def test_second_chapter_is_one_more_text_file(tmp_path):
     [
         ("# %%\n1\n", ":1: a chapter begins with a"),
         ('# %% [markdown]\n# # T\n\n# %% check="f"\ncheck(f)\n', ":4: unknown option 'check'"),
+        ("# %% [markdown]\n# # T\n\n# %% [markdown] setup=true\n# x\n", ":4: a setup cell holds code"),
         ("# %% [markdown]\n# # T\n#\n# ### BEGIN SOLUTION\n# x\n# ### END SOLUTION\n", ":1: a solution stands in a code cell"),
     ],
 )
