@@ -7,6 +7,7 @@ judge. This module imports numpy only: the sandbox loads it too.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -114,8 +115,9 @@ def _numbers(array: NDArray[Any]) -> NDArray[Any] | None:
 
 
 def _bounded(array: NDArray[Any]) -> Any:
-    if array.size > MOST_VALUES:
-        return Foreign("large", str(array.size))
+    count = math.prod(max(1, length) for length in array.shape)  # an empty one may announce more than can be converted
+    if count > MOST_VALUES:
+        return Foreign("large", str(count))
     if array.ndim > DIMENSIONS:
         return Foreign("object", type(array).__name__)
     return array.astype(float) if array.dtype.kind == "f" and array.dtype.itemsize > 8 else np.asarray(array)

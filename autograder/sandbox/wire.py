@@ -102,7 +102,7 @@ def decode(body: bytes, *, depth: int = DEPTH, items: int = ITEMS, raw: bool = F
     reader = _Reader(body, items, raw)
     try:
         value = reader.value(depth)
-    except (struct.error, ValueError, OverflowError, MemoryError) as error:
+    except (struct.error, ValueError, TypeError, OverflowError, MemoryError) as error:
         raise WireError(f"not a value: {error}") from None
     if reader.at != len(body):
         raise WireError(f"{len(body) - reader.at} bytes after the value")

@@ -83,6 +83,8 @@ def test_what_numpy_takes_as_numbers_is_an_array_of_them(value):
         ([[[[[{}]]]]], [[[[Foreign("object", "list")]]]]),
         (["a"] * (ITEMS + 1), ["a"] * ITEMS),
         (np.zeros(MOST_VALUES + 1, dtype=bool), Foreign("large", str(MOST_VALUES + 1))),
+        (np.empty((0, 2**31)), Foreign("large", str(2**31))),
+        (np.empty((2**31, 2**31, 0), dtype="i1"), Foreign("large", str(2**62))),
         (np.ma.array([1.0, 2.0], mask=[True, False]), Foreign("masked", "MaskedArray")),
     ],
     ids=lambda value: type(value).__name__,

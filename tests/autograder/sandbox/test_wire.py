@@ -140,6 +140,7 @@ HOSTILE = {
     "boolean 2": array_frame(code=5, shape=(1,), data=b"\x02"),
     "curve of scalars": b"cdd",
     "curve of the wrong shapes": b"c" + array_frame() + array_frame(),
+    "curve whose breaks are one number": b"c" + array_frame(shape=()) + array_frame(shape=(1, 1, 1)),
     "curve of integers": b"c" + array_frame(code=3, shape=(2,), data=bytes(16)) + array_frame(),
     "a million empty tuples": b"t" + struct.pack("<I", 10**6) + b"t\0\0\0\0" * 10**6,
 }
