@@ -314,7 +314,7 @@ class _Run:
             return None
         try:
             submitted = read_folder(self._folder(student), ignore=self.course.ignore, bounds=self.course.bounds)
-            then, now = _timestamp(place), handed_in(submitted.files)
+            then, now = _timestamp(place), submitted.handed_in
         except SubmissionError:
             return None
         entry = self.journal.read(student)

@@ -25,7 +25,6 @@ from autograder.notebook.run import Ran, run
 from autograder.notebook.score import annotate, marks, unanswered
 from autograder.notebook.session import Opener
 from autograder.notebook.submission import Submission, beside, digest, harmless, parse
-from autograder.notebook.timestamps import handed_in
 from autograder.notebook.written import dumps
 
 
@@ -82,7 +81,7 @@ def grade_one(plan: Plan, student: str, submitted: Submission) -> Outcome:
         If it cannot be dated (``timestamp.txt``); broken notebooks are told in the outcome.
     """
     started = time.monotonic()
-    timestamp = handed_in(submitted.files)
+    timestamp = submitted.handed_in
     work = _Work(plan, student, submitted)
     for name, master in plan.masters.items():
         work.grade(name, master)

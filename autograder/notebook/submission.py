@@ -7,6 +7,7 @@ it is named in the notes. (A hard link cannot be told from a file; Linux lets no
 
 from __future__ import annotations
 
+import datetime
 import fnmatch
 import hashlib
 import json
@@ -19,7 +20,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from autograder.errors import SubmissionError
-from autograder.notebook.timestamps import FILE
+from autograder.notebook.timestamps import FILE, handed_in
 from autograder.sandbox.session import plain_name
 
 IGNORE = (".ipynb_checkpoints", "*.pyc", "__pycache__", "feedback")  # nbgrader's own default
@@ -58,6 +59,19 @@ class Submission:
     def others(self) -> dict[str, bytes]:
         """The files that are no notebooks."""
         return {path: data for path, data in self.files.items() if not path.endswith(".ipynb")}
+
+    @property
+    def handed_in(self) -> datetime.datetime | None:
+        """When, as :func:`autograder.notebook.timestamps.handed_in` reads it.
+
+        Raises
+        ------
+        SubmissionError
+            Also where something else than a file that can be read stands in its place.
+        """
+        if FILE in self.left_out:
+            raise SubmissionError(f"{FILE}: {self.left_out[FILE]}")
+        return handed_in(self.files)
 
     @property
     def digest(self) -> str:
@@ -148,8 +162,8 @@ class _Reader:
         yield from sorted(names)
 
     def _enter(self, folder: int, name: str, path: str, depth: int) -> None:
-        if path.endswith(".ipynb") and depth == 0:
-            raise SubmissionError("it is a folder, not a notebook")
+        if depth == 0 and (path.endswith(".ipynb") or path == FILE):
+            raise SubmissionError(f"it is a folder, not a {'time' if path == FILE else 'notebook'}")
         if depth >= MAX_DEPTH:
             raise SubmissionError(f"folders lie more than {MAX_DEPTH} deep")
         inner = os.open(name, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC, dir_fd=folder)
@@ -200,10 +214,13 @@ def beside(files: Mapping[str, bytes], first: Mapping[str, bytes]) -> dict[str, 
 
 
 def harmless(path: str) -> bool:
-    """Whether a path from the sandbox may be written below ``autograded/``: relative, no notebook, not the timestamp."""
+    """Whether a path from the sandbox may be written below ``autograded/``: relative, no notebook, not the timestamp.
+
+    Nor may a folder of such a name stand in the place of one.
+    """
     parts = PurePosixPath(path).parts
     plain = bool(parts) and not path.startswith("/") and ".." not in parts and path.isprintable() and "\\" not in path
-    return plain and path != FILE and not path.endswith(".ipynb")
+    return plain and parts[0] != FILE and not any(part.endswith(".ipynb") for part in parts)
 
 
 def parse(data: bytes) -> dict[str, Any]:

@@ -23,6 +23,7 @@ START_SECONDS = 30.0
 STATUSES = ("ok", "error", "timeout", "memory")
 T = TypeVar("T")
 TOGETHER = 48 * 1024  # bytes of arguments sent at once: what a socket takes without anybody reading
+LONGEST_PATH = 1000  # bytes; below a course's folder a file of it can still be made
 FAILURES = ("error", "timeout", "memory", "refused", "missing")
 
 
@@ -356,7 +357,7 @@ def checked_files(answer: Any, limits: Limits) -> dict[str, bytes]:
         if not (isinstance(item, tuple) and len(item) == 2 and isinstance(item[0], str) and isinstance(item[1], bytes)):
             continue
         name, content = item
-        if len(name) <= 1000 and all(plain_name(part) for part in name.split("/")):
+        if len(name.encode("utf-8", "replace")) <= LONGEST_PATH and all(plain_name(part) for part in name.split("/")):
             files[name] = content
     folders = {name.rsplit("/", depth)[0] for name in files for depth in range(1, name.count("/") + 1)}
     return {name: content for name, content in files.items() if name not in folders}

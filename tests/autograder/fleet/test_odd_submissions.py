@@ -66,3 +66,25 @@ def test_a_version_that_is_no_whole_number_is_no_notebook(ordinary, said):
     ordinary.hand_in("ada", {"two": notebook})
     graded = fleet.grade(ordinary.course(), "ps1")
     assert graded.broken == ("ada: two.ipynb: the file is JSON, but no notebook",)
+
+
+def test_a_time_whose_arithmetic_fails_is_no_date_and_stops_nobody(ordinary):
+    """dateutil raises decimal.InvalidOperation here; the second run reads it in the process that grades the class."""
+    ordinary.hand_in("ada", {"two": ADD})
+    ordinary.hand_in("eve", {"two": ADD})
+    fleet.grade(ordinary.course(), "ps1")
+    ordinary.hand_in("ada", {"two": ADD}, timestamp="6" + "9" * 40 + "m15:00:00")
+    graded = fleet.grade(ordinary.course(), "ps1")
+    assert "timestamp.txt holds no date" in graded.student("ada").broken[0]
+    assert (graded.student("eve").status, graded.faults) == ("unchanged", ())
+
+
+def test_a_folder_of_a_notebooks_or_the_times_name_that_a_cell_makes_is_not_kept(ordinary):
+    makes = "import os\nfor name in 'two.ipynb', 'timestamp.txt':\n    os.path.isfile(name) and os.remove(name)\n    os.mkdir(name)\n"
+    makes += "    open(name + '/x', 'w').close()\n"
+    ordinary.hand_in("ada", {"two": {"add": makes + ADD["add"]}}, timestamp="2027-02-01 13:00:00 UTC")
+    graded = fleet.grade(ordinary.course(), "ps1")
+    assert (graded.faults, graded.student("ada").status) == ((), "graded")
+    place = ordinary.folder / "autograded" / "ada" / "ps1"
+    assert (place / "two.ipynb").is_file()
+    assert (place / "timestamp.txt").is_file()

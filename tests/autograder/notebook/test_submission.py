@@ -7,7 +7,7 @@ import socket
 import pytest
 
 from autograder.errors import SubmissionError
-from autograder.notebook.submission import Bounds, parse, read_file, read_folder
+from autograder.notebook.submission import Bounds, harmless, parse, read_file, read_folder
 
 
 def test_regular_files_are_read_with_their_paths(tmp_path):
@@ -160,3 +160,20 @@ def test_an_old_notebook_is_converted():
     assert parse(json.dumps(old).encode())["cells"][0]["source"] == "x = 1"
     with pytest.raises(SubmissionError, match="old format"):
         parse(b'{"nbformat": 3, "worksheets": 7}')
+
+
+@pytest.mark.parametrize(
+    "path", ["a.ipynb", "sub/a.ipynb", "a.ipynb/x.txt", "sub/a.ipynb/x", "timestamp.txt", "timestamp.txt/x"]
+)
+def test_no_file_of_a_notebook_takes_the_place_of_a_notebook_or_the_time(path):
+    assert not harmless(path)
+    assert harmless("sub/timestamp.txt")
+
+
+def test_a_folder_in_the_place_of_the_time_is_left_out(tmp_path):
+    (tmp_path / "timestamp.txt").mkdir()
+    (tmp_path / "timestamp.txt" / "x").touch()
+    found = read_folder(tmp_path)
+    assert found.files == {}
+    with pytest.raises(SubmissionError, match=r"timestamp.txt: it is a folder, not a time"):
+        found.handed_in  # noqa: B018

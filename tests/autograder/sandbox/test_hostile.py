@@ -127,7 +127,20 @@ def test_forged_outputs_of_a_cell_are_refused(sandbox):
 
 
 def test_forged_files_cannot_leave_their_folder(sandbox):
-    names = ["../up", "/abs", "a/../b", "a//b", "", ".", "nul\\0", "good", "good/inside", "x" * 5000, "back\\\\slash"]
+    names = [
+        "../up",
+        "/abs",
+        "a/../b",
+        "a//b",
+        "",
+        ".",
+        "nul\\0",
+        "good",
+        "good/inside",
+        "x" * 5000,
+        "back\\\\slash",
+        "/".join(["é" * 120] * 5),
+    ]
     source = f"import autograder.sandbox.guest.child as c\nc.Server.files = lambda self: [(n, b'x') for n in {names!r}]"
     with taken_over(sandbox, source) as session:
         assert session.files() == {"good/inside": b"x"}
