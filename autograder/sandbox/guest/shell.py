@@ -6,7 +6,6 @@ More than 400 lines: the recorder, and the shell all of whose hooks end in it.
 
 from __future__ import annotations
 
-import ast
 import asyncio
 import base64
 import builtins
@@ -16,7 +15,6 @@ import json
 import linecache
 import math
 import os
-import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -26,22 +24,17 @@ from IPython.core import page
 from IPython.core.displayhook import DisplayHook
 from IPython.core.displaypub import DisplayPublisher
 from IPython.core.error import StdinNotImplementedError
-from IPython.core.inputtransformer2 import TransformerManager
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets import Type
 from traitlets.config import Config
 
 from autograder.sandbox.guest.answers import TimeLimitExceeded
+from autograder.sandbox.guest.reading import Compiler, Plainly
 
 JSON_TYPES = ("application/json", "+json")
 MORE = "\n... the output of this cell is cut here: it shows more than {} kB.\n"
 MANY = "\n... the output of this cell is cut here: it shows more than {} things.\n"
 ERRORS = 300_000  # characters of tracebacks that one cell may show
-# Without one of these no line is IPython's own syntax: a command (%magic, !system, ?help, quoting by , ; or /) at the beginning
-# of a line, an assignment from one, or a question mark at the end. Not every match is such a line; every such line matches.
-SPECIAL = re.compile(r"[ \t\f]*[!?%,;/]|.*=\s*[!%]|.*\?[\s;]*(?:\#.*)?$", re.DOTALL)
-# What Python warns of while it parses: a backslash (in a text that is not raw), and a number with a word close behind it.
-WARNED = re.compile(r"\\|\d\.?\w*(?:and|else|for|if|in|is|not|or)\b")
 Output = list[Any]
 Sizes = tuple[tuple[str, int, int], ...]
 
@@ -197,6 +190,12 @@ class Result(DisplayHook):
         """Nothing to open."""
         self.shown = None
 
+    def quiet(self) -> bool:
+        """Whether the cell ends with a semicolon. IPython takes it apart into tokens to find out."""
+        shell: Any = self.shell
+        cells = shell.history_manager.input_hist_parsed
+        return bool(cells) and ";" in cells[-1] and super().quiet()  # type: ignore[no-untyped-call]
+
     def write_output_prompt(self) -> None:
         """There is no prompt."""
 
@@ -212,36 +211,12 @@ class Result(DisplayHook):
         self.shown = None
 
 
-class Plainly(TransformerManager):
-    """Turns IPython's own syntax into Python; valid Python without any is not taken apart into tokens to find that out."""
-
-    def __init__(self) -> None:
-        super().__init__()  # type: ignore[no-untyped-call]
-        self.stock = list(self.token_transformers)
-
-    def do_token_transforms(self, lines: list[str]) -> list[str]:
-        """The lines in Python."""
-        if self.token_transformers == self.stock and not any(map(SPECIAL.match, lines)) and _parses("".join(lines)):
-            return lines
-        return super().do_token_transforms(lines)  # type: ignore[no-any-return, no-untyped-call]
-
-
-def _parses(source: str) -> bool:
-    """Whether this is Python, found out without a warning; what might bring one is not tried."""
-    if WARNED.search(source):
-        return False
-    try:
-        compile(source, "<cell>", "exec", ast.PyCF_ONLY_AST | ast.PyCF_ALLOW_TOP_LEVEL_AWAIT, dont_inherit=True)
-    except (SyntaxError, ValueError, MemoryError, RecursionError):
-        return False
-    return True
-
-
 class Shell(InteractiveShell):
     """An IPython shell without terminal, kernel, history file or threads."""
 
     displayhook_class = Type(Result)
     display_pub_class = Type(Publisher)
+    compiler_class = Type(Compiler)
     kernel: ClassVar[None] = None
     loop: asyncio.AbstractEventLoop | None = None  # made by the first cell: a loop of the zygote would be everybody's
 
@@ -251,8 +226,9 @@ class Shell(InteractiveShell):
         self.ran_into: type[BaseException] | None = None
         self.told: tuple[Any, dict[str, Any]] = (None, {})  # the last error that was shown: its class, and what was said of it
         self.read: tuple[str, str] | None = None  # the source of the cell that is to be run, and what it is in Python
+        self.plain: str | None = None  # the Python of a cell that awaits nothing
         super().__init__(**options)  # type: ignore[no-untyped-call]
-        self.input_transformer_manager = Plainly()
+        self.input_transformer_manager = Plainly(self.compile)
 
     @classmethod
     def for_notebooks(cls) -> Shell:
@@ -340,7 +316,7 @@ class Shell(InteractiveShell):
         try:
             cell = self.transform_cell(source)
             awaits = self.should_run_async(source, transformed_cell=cell)
-            self.read = None if awaits else (source, cell)
+            self.read, self.plain = (None, None) if awaits else ((source, cell), cell)
         except Exception:  # run_cell meets it too, and shows it
             awaits = False
         if not awaits:
@@ -356,6 +332,17 @@ class Shell(InteractiveShell):
         if read is not None and read[0] == raw_cell:
             return read[1]
         return super().transform_cell(raw_cell)  # type: ignore[no-any-return, no-untyped-call]
+
+    def should_run_async(
+        self, raw_cell: str, *, transformed_cell: str | None = None, preprocessing_exc_tuple: Any = None
+    ) -> bool:
+        """Whether a cell awaits something: IPython compiles it to find out. Nor is this worked out again."""
+        plain, self.plain = self.plain, None
+        if plain is not None and plain == transformed_cell and preprocessing_exc_tuple is None:
+            return False
+        return super().should_run_async(  # type: ignore[no-any-return, no-untyped-call]
+            raw_cell, transformed_cell=transformed_cell, preprocessing_exc_tuple=preprocessing_exc_tuple
+        )
 
     def shown(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
         """Outputs of the last cell, and updates for displays of earlier cells, as plain tuples."""
@@ -407,7 +394,7 @@ class Shell(InteractiveShell):
             history._i = history._ii = history._iii = history._i00 = ""
             self.displayhook._ = self.displayhook.__ = self.displayhook.___ = ""
             self.execution_count, self.last_execution_succeeded, self.last_execution_result = 1, True, None
-            self.ran_into, self.told, self.read = None, (None, {}), None
+            self.ran_into, self.told, self.read, self.plain = None, (None, {}), None, None
             self.recorder.begin(0, 0)
             for name in ("last_type", "last_value", "last_traceback", "last_exc"):
                 if hasattr(sys, name):

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from IPython.core.inputtransformer2 import TransformerManager
 
 from autograder.sandbox import Limits, Policy, Sandbox
-from autograder.sandbox.guest import shell
+from autograder.sandbox.guest import reading
 
 PIECES = (
     *(
@@ -151,7 +151,7 @@ def test_a_limit_of_one_cell_can_be_set_apart(session):
 @given(st.lists(st.sampled_from(PIECES), max_size=12).map("".join))
 def test_a_cell_without_ipythons_syntax_is_left_alone_by_ipython(source):
     """The quick look may send a cell through IPython's transformations for nothing; it may not keep one from them."""
-    assert transformed(shell.Plainly(), source) == transformed(TransformerManager(), source)
+    assert transformed(reading.Plainly(), source) == transformed(TransformerManager(), source)
 
 
 def transformed(manager, source):
@@ -166,8 +166,8 @@ def transformed(manager, source):
 )
 def test_plain_python_is_seen_to_be_plain(source, monkeypatch):
     monkeypatch.setattr(TransformerManager, "do_token_transforms", lambda self, lines: ["taken apart"])
-    assert shell.Plainly().transform_cell(source) == source + "\n"
-    assert shell.Plainly().transform_cell(source + "\n%time 1") == "taken apart"
+    assert reading.Plainly().transform_cell(source) == source + "\n"
+    assert reading.Plainly().transform_cell(source + "\n%time 1") == "taken apart"
 
 
 FIGURE = """
