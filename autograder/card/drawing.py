@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import binascii
 import copy
-import functools
 import json
 import math
 import re
@@ -20,11 +19,12 @@ from directrix.plot.wording import WORDS
 
 from autograder import messages
 from autograder.messages import say
-from autograder.result import Figure, Verdict
+from autograder.result import Verdict
 
 PLOTLY = "application/vnd.plotly.v1+json"
 FIGURE_KINDS = frozenset({"surface", "scatter3d"})
 FIGURE_NUMBERS = 400_000
+KEPT = 48  # figures of a tenth of a megabyte that are kept
 
 
 def figure(verdict: Verdict) -> dict[str, Any] | None:
@@ -33,22 +33,16 @@ def figure(verdict: Verdict) -> dict[str, Any] | None:
     Arrays are typed arrays of float32 in base64. A right answer is drawn alone: one scene instead of two equal ones, since a
     browser keeps only so many.
     """
-    if verdict.figure is None:
+    shared = _shared(verdict)
+    return None if shared is None else copy.deepcopy({part: shared[part] for part in ("data", "layout")})
+
+
+def figure_bundle(verdict: Verdict) -> dict[str, Any] | None:
+    """The figure as a mime bundle, its description as the text, or None. Many cards show one figure: nobody changes it."""
+    shared = _shared(verdict)
+    if shared is None:
         return None
-    if _is_the_reference(verdict):
-        shared = _drawn_once(_Itself(verdict.figure))
-        return copy.deepcopy({part: shared[part] for part in ("data", "layout")})
-    return _drawn(verdict.figure, same=_is_right(verdict.figure, verdict))
-
-
-def _is_right(drawn: Figure, verdict: Verdict) -> bool:
-    return verdict.outcome == "passed" and verdict.tier == "identical" and drawn.yours is not None
-
-
-def _is_the_reference(verdict: Verdict) -> bool:
-    """Whether it shows what all who are right get to see: the judge hands out one object for it."""
-    drawn = verdict.figure
-    return drawn is not None and _is_right(drawn, verdict) and drawn.yours is drawn.expected
+    return {"text/plain": say("figure.described", alt=shared["layout"]["meta"]["alt"]), PLOTLY: shared}
 
 
 class Shared(dict[str, Any]):
@@ -59,51 +53,55 @@ class Shared(dict[str, Any]):
 
 @dataclass(frozen=True, eq=False)
 class _Itself:
-    """A figure as a key: equal to the very same object only."""
+    """Anything as a key: equal to the very same object only."""
 
-    figure: Figure
+    thing: Any
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Itself) and other.figure is self.figure
+        return isinstance(other, _Itself) and other.thing is self.thing
 
     def __hash__(self) -> int:
-        return id(self.figure)
+        return id(self.thing)
 
 
-@functools.lru_cache(maxsize=128)
-def _drawn_once(key: _Itself) -> Shared:
-    """What all who are right get to see, drawn and written once, with its configuration."""
-    shown = Shared({**_drawn(key.figure, same=True), "config": dict(CONFIG)})
-    shown.written = json.dumps(shown, sort_keys=True, ensure_ascii=False, allow_nan=False)
+def _shared(verdict: Verdict) -> Shared | None:
+    """The figure of a verdict. In a class many are right, and many make the same mistake: what was drawn is kept for the next."""
+    drawn = verdict.figure
+    if drawn is None:
+        return None
+    words = {name: messages.TEXT[f"figure.{name}"] for name in WORDS}
+    names = say("figure.reference"), say("figure.yours")
+    same = verdict.outcome == "passed" and verdict.tier == "identical" and drawn.yours is not None
+    right = drawn.yours is drawn.expected  # the judge hands out one object for what all who are right get to see
+    yours = None if drawn.yours is None or right else _numbers(drawn.yours)
+    key = (
+        same, right, _Itself(drawn.expected), None if yours is None else yours.tobytes(), drawn.parameters, drawn.worst,
+        drawn.size, drawn.names, drawn.layer, names, tuple(words.values()),
+    )  # fmt: skip
+    shown = _kept.pop(key, None)
+    if shown is None:
+        expected = _numbers(drawn.expected)
+        built = compare(
+            drawn.parameters,
+            expected,
+            expected if right else yours,
+            worst=None if same else drawn.worst,
+            size=drawn.size,
+            title=say("figure.layer", layer=drawn.layer) if drawn.layer else None,
+            same=same,
+            letters=drawn.names or None,
+            names=names,
+            words=words,
+        )
+        shown = Shared({**validated(built), "config": dict(CONFIG)})
+        shown.written = json.dumps(shown, sort_keys=True, ensure_ascii=False, allow_nan=False)
+    _kept[key] = shown  # the newest last
+    while len(_kept) > KEPT:
+        del _kept[next(iter(_kept))]
     return shown
 
 
-def _drawn(drawn: Figure, *, same: bool) -> dict[str, Any]:
-    built = compare(
-        drawn.parameters,
-        _numbers(drawn.expected),
-        None if drawn.yours is None else _numbers(drawn.yours),
-        worst=None if same else drawn.worst,
-        size=drawn.size,
-        title=say("figure.layer", layer=drawn.layer) if drawn.layer else None,
-        same=same,
-        letters=drawn.names or None,
-        names=(say("figure.reference"), say("figure.yours")),
-        words={name: messages.TEXT[f"figure.{name}"] for name in WORDS},
-    )
-    return validated(built)
-
-
-def figure_bundle(verdict: Verdict) -> dict[str, Any] | None:
-    """The figure as a mime bundle, its description as the text, or None."""
-    if verdict.figure is not None and _is_the_reference(verdict):
-        shown: dict[str, Any] = _drawn_once(_Itself(verdict.figure))
-    else:
-        built = figure(verdict)
-        if built is None:
-            return None
-        shown = {**built, "config": dict(CONFIG)}
-    return {"text/plain": say("figure.described", alt=shown["layout"]["meta"]["alt"]), PLOTLY: shown}
+_kept: dict[tuple[Any, ...], Shared] = {}
 
 
 def validated(built: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,6 +8,7 @@ by heart do not help.
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -91,12 +92,16 @@ def read_only(array: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def low_discrepancy(n: int, count: int, start: NDArray[np.float64] | float = 0.5) -> NDArray[np.float64]:
     """``count`` points of the R_n sequence, x_k = start + k (1/g, 1/g², ...) mod 1 where g^(n+1) = g + 1."""
+    points: NDArray[np.float64] = (start + _steps(n, count)) % 1.0
+    return points
+
+
+@functools.cache
+def _steps(n: int, count: int) -> NDArray[np.float64]:
     g = 2.0
     for _ in range(64):
         g = (1 + g) ** (1 / (n + 1))
-    steps = g ** -np.arange(1.0, n + 1)
-    points: NDArray[np.float64] = (start + np.arange(1, count + 1)[:, None] * steps) % 1.0
-    return points
+    return read_only(np.arange(1, count + 1)[:, None] * g ** -np.arange(1.0, n + 1))
 
 
 def samples(n: int, rng: np.random.Generator | None = None, *, keep_grid: bool = False) -> Samples:
@@ -106,18 +111,22 @@ def samples(n: int, rng: np.random.Generator | None = None, *, keep_grid: bool =
     """
     count = GRID[n]
     axes = []
+    even = np.linspace(0.0, 1.0, count)
     for _ in range(n):
-        axis = np.linspace(0.0, 1.0, count)
+        axis = even.copy()
         if rng is not None and not keep_grid:
             axis[1:-1] += rng.uniform(-0.3, 0.3, count - 2) / (count - 1)
         axes.append(read_only(axis))
-    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, n)
-    start = 0.5 if rng is None else rng.uniform(size=n)
-    spread = low_discrepancy(n, SEQUENCE + n * len(FRACTIONS), start)
-    at_fractions = spread[: n * len(FRACTIONS)]
-    for axis_number in range(n):
-        at_fractions[axis_number * len(FRACTIONS) : (axis_number + 1) * len(FRACTIONS), axis_number] = FRACTIONS
-    return Samples(read_only(np.concatenate([grid, spread])), tuple(axes))
+    on_grid, spread_out = count**n, SEQUENCE + n * len(FRACTIONS)
+    points = np.empty((on_grid + spread_out, n))
+    grid = points[:on_grid].reshape(*[count] * n, n)
+    for i, one in enumerate(np.ix_(*axes)):
+        grid[..., i] = one
+    points[on_grid:] = low_discrepancy(n, spread_out, 0.5 if rng is None else rng.uniform(size=n))
+    for i in range(n):
+        first = on_grid + i * len(FRACTIONS)
+        points[first : first + len(FRACTIONS), i] = FRACTIONS
+    return Samples(read_only(points), tuple(axes))
 
 
 def _without_inner(count: int, dropped: int) -> list[int]:

@@ -39,10 +39,8 @@ def louder(text):
 def loud(monkeypatch):
     """Every text in capitals, for the time of a test."""
     monkeypatch.setattr(messages, "TEXT", dict(messages.ENGLISH))
-    card.drawing._drawn_once.cache_clear()
     messages.use({key: louder(text) for key, text in messages.ENGLISH.items()})
     yield
-    card.drawing._drawn_once.cache_clear()
 
 
 def quiet_words(text, *known):

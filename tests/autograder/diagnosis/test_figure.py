@@ -29,6 +29,22 @@ def test_all_who_are_right_share_one_picture():
     assert wrong.figure.yours != wrong.figure.expected
 
 
+def test_who_makes_the_same_mistake_is_shown_the_same_picture():
+    """It is drawn once; other numbers, another language or another title make another one."""
+    target.forget()
+
+    def taller(u, w, r, h):
+        return CYLINDER.reference(u, w, r, 2 * h)
+
+    first, second = (card.figure_bundle(judge(CYLINDER, taller, seed=seed)) for seed in (b"one", b"two"))
+    (drawn,) = (first[mime] for mime in first if mime != "text/plain")
+    assert any(shown is drawn for shown in second.values())
+    tallest = card.figure_bundle(judge(CYLINDER, lambda u, w, r, h: CYLINDER.reference(u, w, r, 3 * h)))
+    assert not any(shown is drawn or shown == drawn for shown in tallest.values())
+    right = card.figure_bundle(judge(CYLINDER, CYLINDER.reference))
+    assert not any(shown is drawn or shown == drawn for shown in right.values())
+
+
 def test_right_at_the_samples_and_wrong_between_them_is_drawn_as_it_is():
     """The shared picture is for what is right on the grid of the picture too."""
 
