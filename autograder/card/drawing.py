@@ -65,7 +65,7 @@ class _Itself:
 
 
 def _shared(verdict: Verdict) -> Shared | None:
-    """The figure of a verdict. In a class many are right, and many make the same mistake: what was drawn is kept for the next."""
+    """The figure of a verdict. Many of a class are right, and many make the same mistake: what was drawn is kept for them."""
     drawn = verdict.figure
     if drawn is None:
         return None

@@ -140,6 +140,8 @@ def _map_gates(asked: Asked, gated: Gated) -> None:
 
 def _trouble(target: Target, form: Form, answer: Answer | None, wanted: tuple[int, ...]) -> Trouble | None:
     """Why an answer has not the shape that this form of input asks for; None where it has."""
+    if isinstance(answer, Numbers) and answer.values.shape == wanted:
+        return None
     names = target.names
     facts: dict[str, Any] = {"form": form, "given": _given(target, form), "wanted": str(wanted), "names": names}
     if isinstance(answer, Raised):
@@ -155,8 +157,6 @@ def _trouble(target: Target, form: Form, answer: Answer | None, wanted: tuple[in
     if not isinstance(answer, Numbers):
         return Trouble(form, "shape.unreadable", {**facts, "type": "text"})
     got = answer.values.shape
-    if got == wanted:
-        return None
     facts["got"] = str(got)
     count = wanted[0] if form == "vector" else 0
     points = target.values.ndim > 1  # a mask has one number a place, and no coordinates

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,17 +29,17 @@ class Sampled:
     indices: NDArray[np.intp]
     values: Array
 
-    @property
+    @cached_property
     def points(self) -> Array:
         """The parameters, (K, n)."""
         return self.target.samples.points[self.indices]
 
-    @property
+    @cached_property
     def expected(self) -> Array:
         """The right values at the same parameters."""
         return self.target.values[self.indices]
 
-    @property
+    @cached_property
     def deviations(self) -> Array:
         """Distance between the two at each sample, (K,)."""
         return distances(self.values, self.expected)

@@ -148,8 +148,8 @@ class Session:
         if self.ended is not None:
             raise CallFailed("died", self.ended.message)
         try:
-            request = (name, tuple(arguments), action.cpu, action.wall, limits.answer)
-            return self._answer(self._ask(wire.CALL, request, action), action)
+            request = (name, action.cpu, action.wall, limits.answer, tuple(arguments))
+            return self._answer(self._ask(wire.CALLS, request, action), action)
         except Over as over:
             raise CallFailed(over.ended.kind, over.ended.message) from None
 

@@ -31,10 +31,10 @@ Values: TypeAlias = "list[Value]"
 HEADER = struct.Struct("<BI16s")
 LINK_LOST = 71  # exit code of a child that finds its socket closed by the code it runs
 
-START, CELL, CALL, FILES, SERVE, APART, CALLS = 1, 2, 3, 4, 5, 6, 7  # asked of the child
+START, CELL, CALLS, FILES, SERVE, APART = 1, 2, 3, 4, 5, 6  # asked of the child
 DONE = 65  # its answer; one for each call of CALLS, which end with the first of these failures
 FATAL = ("timeout", "memory", "missing")
-KINDS = frozenset({START, CELL, CALL, FILES, SERVE, APART, CALLS, DONE})
+KINDS = frozenset({START, CELL, CALLS, FILES, SERVE, APART, DONE})
 PEER_CALL, NAME, END, REPLY = 97, 98, 99, 100  # between two notebooks' processes; never taken by the trusted side
 PEER_KINDS = frozenset({PEER_CALL, NAME, END, REPLY})
 

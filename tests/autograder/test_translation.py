@@ -40,7 +40,6 @@ def loud(monkeypatch):
     """Every text in capitals, for the time of a test."""
     monkeypatch.setattr(messages, "TEXT", dict(messages.ENGLISH))
     messages.use({key: louder(text) for key, text in messages.ENGLISH.items()})
-    yield
 
 
 def quiet_words(text, *known):

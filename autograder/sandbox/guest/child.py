@@ -84,13 +84,11 @@ class Server:
         """Read one request and answer it."""
         kind, exchange, request = self.request()
         if kind == wire.CALLS:
-            for one in self.calls_in_turn(*request):
-                self.link.sendall(wire.frame(wire.DONE, exchange, wire.encode(one, depth=RESULT_DEPTH)))
+            for body in self.calls_in_turn(*request):
+                self.link.sendall(wire.frame(wire.DONE, exchange, body))
             return
         if kind == wire.CELL:
             answer: Any = self.cell(*request)
-        elif kind == wire.CALL:
-            answer = self.call(*request)
         elif kind == wire.SERVE:
             self.serve(*request)
             answer = None
@@ -131,10 +129,20 @@ class Server:
             status = "timeout"
         return (status, self.shell.number, *self.shell.shown())
 
-    def call(self, name: str, arguments: tuple[Any, ...], cpu: float, wall: float, limit: int) -> tuple[Any, ...]:
-        """Call a function of the notebook: (True, answer) or (False, how it failed...)."""
+    def calls_in_turn(self, name: str, cpu: float, wall: float, limit: int, *sets: tuple[Any, ...]) -> Iterator[bytes]:
+        """Call a function of the notebook with one set of arguments after the other, until one call ends so that no later one
+        could answer. Each gives an answer in binary form: of (True, what it returned) or of (False, how it failed...)."""
+        for arguments in sets:
+            body, kind = self.call(name, arguments, cpu, wall, limit)
+            yield body
+            if kind in wire.FATAL:
+                return
+
+    def call(self, name: str, arguments: tuple[Any, ...], cpu: float, wall: float, limit: int) -> tuple[bytes, str]:
+        """One such call: its answer, and the kind of its failure or nothing."""
         self.calls += 1
         _reseed(self.seed, self.calls)
+        body = b""
         with self.shell.silence(), answers.failures(self.shell) as failure:
             function = answers.find(self.shell.user_ns, name)
             with _timed(cpu, wall):
@@ -142,20 +150,10 @@ class Server:
             answer = (True, plainly(value))
             if (count := wire.count(answer)) > wire.ITEMS:
                 raise answers.Refused(f"the answer has {count} parts; at most {wire.ITEMS} are taken")
-            size = len(wire.encode(answer, depth=wire.DEPTH + 1))
-            if size > limit:
-                raise answers.Refused(f"the answer has {size} bytes; at most {limit} are taken")
-        return tuple(failure) or answer
-
-    def calls_in_turn(
-        self, name: str, cpu: float, wall: float, limit: int, *sets: tuple[Any, ...]
-    ) -> Iterator[tuple[Any, ...]]:
-        """Call a function with one set of arguments after the other, until one call ends so that no later one could answer."""
-        for arguments in sets:
-            answer = self.call(name, arguments, cpu, wall, limit)
-            yield answer
-            if answer[0] is False and answer[1] in wire.FATAL:
-                return
+            body = wire.encode(answer, depth=wire.DEPTH + 1)
+            if len(body) > limit:
+                raise answers.Refused(f"the answer has {len(body)} bytes; at most {limit} are taken")
+        return (wire.encode(tuple(failure)), failure[1]) if failure else (body, "")
 
     def serve(self, cpu: float, wall: float, output: int) -> None:
         """Let the tests' process call this notebook's functions, until it is done with a cell."""

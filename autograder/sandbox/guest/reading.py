@@ -1,7 +1,7 @@
 """How a cell's source is read: IPython's own syntax turned into Python, and Python parsed once.
 
 By itself IPython takes every cell apart into tokens, compiles it twice to learn whether it awaits something, parses it once
-more to run it, and takes it apart again to look for a semicolon at its end. Here each is done once, and only where it can matter.
+more to run it, and takes it apart again to look for a semicolon at its end. Here each is done once, where it can matter.
 """
 
 from __future__ import annotations
@@ -60,6 +60,8 @@ def parsed(source: str) -> ast.AST | None:
     if WARNED.search(source):
         return None
     try:
-        return compile(source, "<cell>", "exec", ast.PyCF_ONLY_AST | ast.PyCF_ALLOW_TOP_LEVEL_AWAIT, dont_inherit=True)
+        flags = ast.PyCF_ONLY_AST | ast.PyCF_ALLOW_TOP_LEVEL_AWAIT
+        tree: ast.AST = compile(source, "<cell>", "exec", flags, dont_inherit=True)
+        return tree
     except (SyntaxError, ValueError, MemoryError, RecursionError):
         return None

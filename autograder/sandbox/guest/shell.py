@@ -228,7 +228,8 @@ class Shell(InteractiveShell):
         self.read: tuple[str, str] | None = None  # the source of the cell that is to be run, and what it is in Python
         self.plain: str | None = None  # the Python of a cell that awaits nothing
         super().__init__(**options)  # type: ignore[no-untyped-call]
-        self.input_transformer_manager = Plainly(self.compile)
+        compiler: Any = self.compile
+        self.input_transformer_manager = Plainly(compiler)
 
     @classmethod
     def for_notebooks(cls) -> Shell:
@@ -340,7 +341,7 @@ class Shell(InteractiveShell):
         plain, self.plain = self.plain, None
         if plain is not None and plain == transformed_cell and preprocessing_exc_tuple is None:
             return False
-        return super().should_run_async(  # type: ignore[no-any-return, no-untyped-call]
+        return super().should_run_async(
             raw_cell, transformed_cell=transformed_cell, preprocessing_exc_tuple=preprocessing_exc_tuple
         )
 
@@ -415,7 +416,9 @@ class Shell(InteractiveShell):
         for descriptor, name in ((1, "stdout"), (2, "stderr")):
             try:
                 size = os.lseek(descriptor, 0, os.SEEK_END)
-                text = os.pread(descriptor, min(size, self.recorder.left + 1), 0).decode("utf-8", "replace") if size else ""
+                if not size:
+                    continue
+                text = os.pread(descriptor, min(size, self.recorder.left + 1), 0).decode("utf-8", "replace")
                 os.ftruncate(descriptor, 0)
             except OSError:  # the learner's code has closed it
                 continue

@@ -57,7 +57,7 @@ def frames(data, exchange):
             where = data.draw(st.integers(0, len(body)))
             body[where : where + data.draw(st.integers(0, 4))] = data.draw(st.binary(max_size=8))
         length = len(body) + data.draw(st.sampled_from([0, 0, 0, 1, -1, MOST, 2**31]))
-        kind = data.draw(st.sampled_from([wire.DONE, wire.DONE, wire.DONE, wire.CALL, 0, 255]))
+        kind = data.draw(st.sampled_from([wire.DONE, wire.DONE, wire.DONE, wire.CALLS, 0, 255]))
         name = data.draw(st.sampled_from([exchange, exchange, exchange, bytes(16)]))
         sent += struct.pack("<BI16s", kind, max(0, min(length, 2**32 - 1)), name) + bytes(body)
     return sent[: data.draw(st.integers(0, len(sent)))] if data.draw(st.booleans()) else sent
@@ -67,7 +67,7 @@ def frames(data, exchange):
 @given(data=st.data())
 def test_whatever_a_child_sends_is_a_value_or_its_end(data):
     with Child() as child:
-        exchange = child.process.post(wire.CALL, ("f", (1.0,)), ACTION)
+        exchange = child.process.post(wire.CALLS, ("f", (1.0,)), ACTION)
         sent = frames(data, exchange)
         child.end.sendall(sent)
         child.end.close()
@@ -86,6 +86,6 @@ def test_whatever_a_child_sends_is_a_value_or_its_end(data):
 def test_a_true_answer_arrives():
     """Else all of the above might be refused for another reason."""
     with Child() as child:
-        exchange = child.process.post(wire.CALL, ("f", (1.0,)), ACTION)
+        exchange = child.process.post(wire.CALLS, ("f", (1.0,)), ACTION)
         child.end.sendall(wire.frame(wire.DONE, exchange, wire.encode((True, 2.5))))
         assert child.process.take(exchange, ACTION) == (True, 2.5)

@@ -43,7 +43,7 @@ def attempt(session, arguments=(1.0,)):
 REFUSED = {
     "garbage": "link.sendall(os.urandom(100_000))",
     "unknown kind": "link.sendall(frame(200, b'N'))",
-    "a request in place of an answer": "link.sendall(frame(wire.CALL, b'N'))",
+    "a request in place of an answer": "link.sendall(frame(wire.CALLS, b'N'))",
     "four gigabytes announced": "link.sendall(struct.pack('<BI16s', wire.DONE, 2**32 - 1, bytes(16)))",
     "another exchange": "link.sendall(frame(wire.DONE, wire.encode((True, 1.0)), bytes(16)))",
     "no value": "link.sendall(frame(wire.DONE, b''))",
@@ -108,7 +108,7 @@ def test_a_child_that_does_not_read_its_question(sandbox):
         sandbox, "import threading, time\ndef f(x): return 0\nwire.header = lambda *a: time.sleep(100)\ndef g(): return 0"
     )
     with session:
-        session._process._send(wire.frame(wire.CALL, bytes(16), b"N"), session._action("this call", 1, LIMITS, 100))
+        session._process._send(wire.frame(wire.CALLS, bytes(16), b"N"), session._action("this call", 1, LIMITS, 100))
         with pytest.raises(CallFailed) as caught:
             session.call("f", [np.zeros(10**7)])
     assert caught.value.kind == "timeout"
