@@ -80,8 +80,10 @@ def test_a_time_whose_arithmetic_fails_is_no_date_and_stops_nobody(ordinary):
 
 
 def test_a_folder_of_a_notebooks_or_the_times_name_that_a_cell_makes_is_not_kept(ordinary):
-    makes = "import os\nfor name in 'two.ipynb', 'timestamp.txt':\n    os.path.isfile(name) and os.remove(name)\n    os.mkdir(name)\n"
-    makes += "    open(name + '/x', 'w').close()\n"
+    makes = (
+        "import os\nfor name in 'two.ipynb', 'timestamp.txt':\n    os.path.isfile(name) and os.remove(name)\n"
+        "    os.mkdir(name)\n    open(name + '/x', 'w').close()\n"
+    )
     ordinary.hand_in("ada", {"two": {"add": makes + ADD["add"]}}, timestamp="2027-02-01 13:00:00 UTC")
     graded = fleet.grade(ordinary.course(), "ps1")
     assert (graded.faults, graded.student("ada").status) == ((), "graded")

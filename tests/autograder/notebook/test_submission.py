@@ -176,4 +176,4 @@ def test_a_folder_in_the_place_of_the_time_is_left_out(tmp_path):
     found = read_folder(tmp_path)
     assert found.files == {}
     with pytest.raises(SubmissionError, match=r"timestamp.txt: it is a folder, not a time"):
-        found.handed_in  # noqa: B018
+        assert found.handed_in
