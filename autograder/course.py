@@ -104,10 +104,6 @@ class Course:
         """Folders handed in for an assignment, by student, in order."""
         return {student: self.path("submitted", student, assignment) for student in self.students("submitted", assignment)}
 
-    def graded(self, assignment: str) -> dict[str, Path]:
-        """Folders of graded submissions of an assignment, by student, in order."""
-        return {student: self.path("autograded", student, assignment) for student in self.students("autograded", assignment)}
-
     def students(self, step: str, assignment: str) -> list[str]:
         """Who has a folder of a step (``submitted``, ...) of an assignment, in order."""
         marker = "\0"

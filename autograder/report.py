@@ -101,6 +101,7 @@ def summary(graded: GradeReport) -> dict[str, Any]:
         "available": graded.available,
         "parts": [asdict(part) for part in parts(graded)],
         "looks": {student.student: student.looks for student in graded.students if student.looks},
+        "missing": {student.student: list(student.missing) for student in graded.students if student.missing},
         "broken": list(graded.broken),
         "faults": list(graded.faults),
         "shared": dict(graded.shared),
@@ -208,6 +209,8 @@ def _points(cell: CellReport | None) -> tuple[str, str]:
 def _remark(student: StudentReport) -> Text:
     word, style = STATUS[student.status]
     said = [] if student.status == "graded" else [word]
+    if student.missing and student.status != "empty":
+        said.append(f"{', '.join(student.missing)} not handed in")
     if student.penalty:
         said.append(f"late: -{student.penalty:g}")
     if student.looks:

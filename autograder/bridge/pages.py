@@ -38,9 +38,9 @@ class Feedback(Exporter):
         named = resources["nbgrader"]
         converter: Any = self.parent
         course = Course(converter.coursedir.root, config=self.config)
-        with course.gradebook() as book:
-            scored = sheet(book, named["assignment"], named["student"], named["notebook"])
         folder = course.path("autograded", named["student"], named["assignment"])
+        with course.gradebook() as book:
+            scored = sheet(book, named["assignment"], named["student"], named["notebook"], folder)
         html = render(nb, scored, hidden=course_hidden(course), image=images_of(folder))
         resources["output_extension"] = ".html"
         return html, resources

@@ -85,9 +85,12 @@ def feedback(
     """
     from autograder import feedback as pages
 
-    written = pages.write(opened(course), assignment, students=student or None)
+    paths: list[str] = []
+    count = 0
+    for count, path in enumerate(pages.pages(opened(course), assignment, students=student or None), 1):  # noqa: B007
+        paths += [str(path)] * as_json
     if as_json:
-        print(json.dumps([str(path) for path in written]))
+        print(json.dumps(paths))
     else:
-        pages_are = "1 page" if len(written) == 1 else f"{len(written)} pages"
+        pages_are = "1 page" if count == 1 else f"{count} pages"
         console_for(as_json).print(f"{pages_are} under {course / 'feedback'}", highlight=False, markup=False)

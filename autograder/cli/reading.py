@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
+import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -12,8 +15,11 @@ from autograder.cli.options import AsJson, CourseOption, console_for, opened
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.table import Table
 
-    from autograder.gradebook.export import Sheet
+    from autograder.gradebook.export import Cell, Sheet
+
+WIDEST = 30  # letters of an id or a name that columns keep on a narrow screen
 
 
 def report(
@@ -74,28 +80,17 @@ def marks(
 
     Example: directrix marks A1 --csv marks-A1.csv
     """
-    from rich.table import Table
-    from rich.text import Text
-
     from autograder.gradebook import export
-    from autograder.report import plain
 
     with opened(course).gradebook() as book:
         sheet = export.sheet(book, assignment)
-    header, *rows = export.table(sheet)
     console = console_for(as_json)
-    made = Table(header_style="bold")
-    shown = [0, 1, *range(len(header) - 4, len(header))]  # a column for each part is for the file: a screen has no room for it
-    for place in shown:
-        made.add_column(str(header[place]), overflow="fold", justify="left" if place < 2 else "right")
-    for line in rows:
-        cells = (line[place] for place in shown)
-        made.add_row(*(Text(plain(f"{cell:g}" if isinstance(cell, float) else str(cell))) for cell in cells))
-    console.print(made)
+    for made in _tables(sheet):
+        console.print(made)
     if csv is not None:
         _write(sheet, csv, console)
     if as_json:
-        print(_rows(sheet))
+        _print_rows(sheet)
 
 
 def export(
@@ -118,21 +113,52 @@ def export(
         sheet = exporting.sheet(book, assignment)
     _write(sheet, csv if csv is not None else Path(f"marks-{assignment}.csv"), console_for(as_json))
     if as_json:
-        print(_rows(sheet))
+        _print_rows(sheet)
 
 
 def _write(sheet: Sheet, path: Path, console: Console) -> None:
     from autograder.gradebook import export as exporting
 
-    path.write_text(exporting.as_csv(sheet), "utf-8", newline="")
+    with path.open("w", encoding="utf-8", newline="") as file:
+        exporting.write_csv(sheet, file)
     console.print(f"{path}: {len(sheet.rows)} students, {sheet.available:g} points", highlight=False, markup=False)
 
 
-def _rows(sheet: Sheet) -> str:
-    from autograder.gradebook import export as exporting
+def _tables(sheet: Sheet) -> Iterator[Table]:
+    """The marks for a screen, which has no room for a column for each part; a large class in tables of a hundred students."""
+    from rich.table import Table
+    from rich.text import Text
 
-    header, *rows = exporting.table(sheet)
-    names = [str(name) for name in header]
-    return json.dumps(
-        {"assignment": sheet.assignment, "rows": [dict(zip(names, line, strict=True)) for line in rows]}, allow_nan=False
-    )
+    from autograder.gradebook import export
+    from autograder.report import PAGE, plain
+
+    header = export.header(sheet)
+    shown = [0, 1, *range(len(header) - 4, len(header))]
+
+    def row(line: list[Cell]) -> list[Text]:
+        return [Text(plain(f"{cell:g}" if isinstance(cell, float) else str(cell))) for cell in map(line.__getitem__, shown)]
+
+    widths = [0] * len(shown)
+    if len(sheet.rows) > PAGE:  # so that all tables are alike
+        for line in export.lines(sheet):
+            widths = [max(width, cell.cell_len) for width, cell in zip(widths, row(line), strict=True)]
+    for start in range(0, max(len(sheet.rows), 1), PAGE):
+        made = Table(header_style="bold")
+        for place, width in zip(shown, widths, strict=True):
+            justify: Literal["left", "right"] = "left" if place < 2 else "right"
+            made.add_column(header[place], overflow="fold", justify=justify, min_width=min(width, WIDEST))
+        for line in export.lines(dataclasses.replace(sheet, rows=sheet.rows[start : start + PAGE])):
+            made.add_row(*row(line))
+        yield made
+
+
+def _print_rows(sheet: Sheet) -> None:
+    """Print the marks as one JSON document, a student at a time."""
+    from autograder.gradebook import export
+
+    header, write = export.header(sheet), sys.stdout.write
+    write(f'{{"assignment": {json.dumps(sheet.assignment)}, "rows": [')
+    for number, line in enumerate(export.lines(sheet)):
+        row = json.dumps(dict(zip(header, line, strict=True)), allow_nan=False)
+        write(f"{', ' if number else ''}{row}")
+    write("]}\n")

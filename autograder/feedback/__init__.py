@@ -3,6 +3,6 @@
 feedback.write(course, "A1")    # feedback/<student>/A1/<notebook>.html, the same files that nbgrader writes
 """
 
-from autograder.feedback.write import sheet, write
+from autograder.feedback.write import pages, sheet, write
 
-__all__ = ["sheet", "write"]
+__all__ = ["pages", "sheet", "write"]

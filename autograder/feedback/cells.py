@@ -19,6 +19,7 @@ from autograder.feedback.markdown import to_html
 from autograder.messages import say
 from autograder.notebook.safe import FIGURE, IMAGES, clean_html, figure, picture
 
+LONGEST_KEPT = 5_000  # letters: a thousand cells that are longer would be much to hold
 Admit = Callable[[Any], Mapping[str, Any] | None]
 
 
@@ -86,9 +87,13 @@ def _text(value: Any) -> Any:
     return "".join(value) if isinstance(value, list) and all(isinstance(line, str) for line in value) else value
 
 
-@functools.lru_cache(maxsize=1000)
 def code_html(source: str) -> str:
-    """Python with its colours."""
+    """Python with its colours; what is short is kept, for an instructor's cells come again with every learner."""
+    return _coloured(source) if len(source) <= LONGEST_KEPT else _coloured.__wrapped__(source)
+
+
+@functools.lru_cache(maxsize=1000)
+def _coloured(source: str) -> str:
     return str(pygments.highlight(source, Python3Lexer(), HtmlFormatter(nowrap=False, cssclass="highlight")))
 
 

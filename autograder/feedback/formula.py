@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 from latex2mathml.converter import convert
 
 LONGEST = 5_000
+LONGEST_KEPT = 500  # letters: MathML is a hundred times as long
 NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 ELEMENTS = {
     "math", "menclose", "merror", "mfenced", "mfrac", "mi", "mmultiscripts", "mn", "mo", "mover", "mpadded", "mphantom",
@@ -31,9 +32,13 @@ _ENVIRONMENT = re.compile(r"\\(begin|end)\{(?:aligned|align|gather\*?|gathered|e
 _NUMBERED = re.compile(r"\\(?:begin|end)\{equation\*?\}|\\label\{[^{}]*\}|\\(?:nonumber|notag)\b")
 
 
-@functools.lru_cache(maxsize=4096)
 def mathml(latex: str, *, block: bool) -> str:
-    """The formula as a MathML element, or its source in ``<code>`` where it cannot be converted."""
+    """The formula as a MathML element, or its source in ``<code>`` where it cannot be converted. What is short is kept."""
+    return _converted(latex, block) if len(latex) <= LONGEST_KEPT else _converted.__wrapped__(latex, block)
+
+
+@functools.lru_cache(maxsize=4096)
+def _converted(latex: str, block: bool) -> str:
     source = _NUMBERED.sub("", _ENVIRONMENT.sub(r"\\\1{align*}", latex)).strip()
     shown = f"<code>{html.escape(latex.strip())}</code>"
     if not source or len(source) > LONGEST:

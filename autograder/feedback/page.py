@@ -9,7 +9,7 @@ from __future__ import annotations
 import base64
 import functools
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ import jinja2
 from directrix.plot import page as figures
 from markupsafe import Markup
 
-from autograder.feedback.cells import code_html, folded, joined, output_html, phrase, style
+from autograder.feedback.cells import LONGEST_KEPT, code_html, folded, joined, output_html, phrase, style
 from autograder.feedback.hide import Hidden
 from autograder.feedback.markdown import FindImage, to_html
 from autograder.notebook.master import checked_name
@@ -36,6 +36,16 @@ class Scored:
 
 
 @dataclass(frozen=True)
+class Absent:
+    """Another notebook of the assignment that has no page: ``unread`` if it was handed in and could not be read."""
+
+    notebook: str
+    points: float
+    available: float
+    unread: bool = False
+
+
+@dataclass(frozen=True)
 class Sheet:
     """What stands above a page and beside its cells."""
 
@@ -45,6 +55,7 @@ class Sheet:
     cells: Mapping[str, Scored] = field(default_factory=dict)
     comments: Mapping[str, str] = field(default_factory=dict)
     penalty: float = 0.0
+    absent: Sequence[Absent] = ()
 
     @property
     def score(self) -> float:
@@ -103,9 +114,10 @@ def _cell(cell: Mapping[str, Any], sheet: Sheet, image: FindImage | None) -> dic
 
 
 def _markdown(source: str, attachments: Mapping[str, Any], image: FindImage | None) -> str:
-    """A text, rendered once for all learners where it can show no picture."""
+    """A text, rendered once for all learners where it is short and can show no picture."""
     pictures = attachments or "![" in source or "<img" in source.lower()
-    return to_html(source, attachments=attachments, image=image) if pictures else _text_only(source)
+    kept = not pictures and len(source) <= LONGEST_KEPT
+    return _text_only(source) if kept else to_html(source, attachments=attachments, image=image)
 
 
 @functools.lru_cache(maxsize=1000)  # the instructor's texts, which come again with every learner

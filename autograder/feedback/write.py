@@ -6,7 +6,7 @@ import base64
 import mimetypes
 import os
 import secrets
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 from urllib.parse import unquote
@@ -15,13 +15,15 @@ from autograder.course import Course
 from autograder.errors import CourseError, SubmissionError
 from autograder.feedback.hide import Hidden
 from autograder.feedback.markdown import FindImage
-from autograder.feedback.page import Scored, Sheet, render
+from autograder.feedback.page import Absent, Scored, Sheet, render
 from autograder.gradebook import AssignmentRow, Gradebook
 from autograder.notebook.safe import IMAGES
 from autograder.notebook.submission import parse, read_file
 
-TIMESTAMP = "timestamp.txt"
+# nbgrader compares the first to know whether its feedback is up to date; to release feedback it needs the second too.
+BESIDE = ("timestamp.txt", "submission_secret.txt")
 MAX_IMAGE = 4_000_000
+BATCH = 50  # students whose marks are read at a time
 
 
 def write(course: Course, assignment: str, students: Iterable[str] | None = None) -> list[Path]:
@@ -34,47 +36,74 @@ def write(course: Course, assignment: str, students: Iterable[str] | None = None
     CourseError
         If the assignment is unknown, nothing of it is graded, or a student is named who has nothing graded.
     """
-    wanted = None if students is None else list(students)
-    graded = course.graded(assignment)
-    missing = [student for student in wanted or () if student not in graded]
+    return list(pages(course, assignment, students))
+
+
+def pages(course: Course, assignment: str, students: Iterable[str] | None = None) -> Iterator[Path]:
+    """Write the same pages one after the other, each as it is asked for; a large class takes no more memory than a small one.
+
+    Raises
+    ------
+    CourseError
+        As :func:`write`, when the first page is asked for.
+    """
+    graded = course.students("autograded", assignment)
+    named = graded if students is None else list(dict.fromkeys(students))
+    missing = set(named).difference(graded)
     if missing or not graded:
-        who = ", ".join(missing) or "anybody"
+        who = ", ".join(student for student in named if student in missing) or "anybody"
         raise CourseError(f"nothing of {assignment} by {who} is graded yet; grade it first: directrix grade {assignment}")
-    pages = []
+    chosen = sorted(named)
     hidden = course_hidden(course)
     with course.gradebook() as book:
         row = book.assignment(assignment)
-        sheets = Sheets(book, row)
-        for student, folder in graded.items():
-            if wanted is None or student in wanted:
-                pages += _student(course, row, sheets, student, folder, hidden)
-    return pages
+        for start in range(0, len(chosen), BATCH):
+            some = chosen[start : start + BATCH]
+            sheets = Sheets(book, row, some)
+            for student in some:
+                yield from _student(course, row, sheets, student, hidden)
 
 
-def sheet(book: Gradebook, assignment: str, student: str, notebook: str) -> Sheet:
-    """What the gradebook says of one notebook of one student."""
-    return Sheets(book, book.assignment(assignment)).of(student, notebook)
+def sheet(book: Gradebook, assignment: str, student: str, notebook: str, folder: Path) -> Sheet:
+    """What the gradebook says of one notebook of one student, whose graded notebooks lie in a folder."""
+    return Sheets(book, book.assignment(assignment), [student]).of(student, notebook, folder)
 
 
 class Sheets:
-    """The sheets of an assignment, its marks read once."""
+    """The sheets of some students of an assignment, their marks read at once."""
 
-    def __init__(self, book: Gradebook, row: AssignmentRow) -> None:
+    def __init__(self, book: Gradebook, row: AssignmentRow, students: Sequence[str]) -> None:
         self.book, self.row = book, row
-        self.marks, self.penalties, self.names = book.read_marks(row), book.penalties(row), book.students()
+        known = [student for student in students if student.isprintable()]  # no database is asked for other names
+        self.marks, self.penalties = book.read_marks(row, known), book.penalties(row, known)
+        self.names = book.students(known)
 
-    def of(self, student: str, notebook: str) -> Sheet:
-        """The sheet of one notebook of one student."""
-        master = self.row.notebooks[notebook].master
+    def of(self, student: str, notebook: str, folder: Path) -> Sheet:
+        """The sheet of one notebook of one student, whose graded notebooks lie in a folder."""
+        cells = self._scored(student, notebook)
+        comments = {name: text for (nb, name), text in self.book.comments(self.row, student).items() if nb == notebook}
+        name = self.names.get(student) or student
+        penalty = self.penalties.get((student, notebook), 0.0)
+        return Sheet(notebook, self.row.name, name, cells, comments, penalty, self._absent(student, folder))
+
+    def _scored(self, student: str, notebook: str) -> dict[str, Scored]:
         mine = self.marks.get(student, {})
         cells = {}
-        for cell in master.cells.values():
+        for cell in self.row.notebooks[notebook].master.cells.values():
             if cell.grade or cell.task:
                 points, look = mine.get((notebook, cell.name), (None, True))
                 cells[cell.name] = Scored(points, float(cell.points or 0.0), look)
-        comments = {name: text for (nb, name), text in self.book.comments(self.row, student).items() if nb == notebook}
-        name = self.names.get(student) or student
-        return Sheet(notebook, self.row.name, name, cells, comments, self.penalties.get((student, notebook), 0.0))
+        return cells
+
+    def _absent(self, student: str, folder: Path) -> list[Absent]:
+        """The notebooks of the assignment that have no page."""
+        names = [name for name in self.row.notebooks if not (folder / f"{name}.ipynb").is_file()]
+        unread = self.book.unmarked(self.row, student) if names else ()
+        found = []
+        for name in names:
+            alone = Sheet(name, self.row.name, student, self._scored(student, name))
+            found.append(Absent(name, alone.score, alone.available, name in unread))
+        return found
 
 
 def course_hidden(course: Course) -> Hidden:
@@ -109,21 +138,22 @@ def images_of(folder: Path) -> FindImage:
     return find
 
 
-def _student(course: Course, row: AssignmentRow, sheets: Sheets, student: str, folder: Path, hidden: Hidden) -> list[Path]:
-    target = course.path("feedback", student, row.name)
-    pages = []
+def _student(course: Course, row: AssignmentRow, sheets: Sheets, student: str, hidden: Hidden) -> Iterator[Path]:
+    folder, target = course.path("autograded", student, row.name), course.path("feedback", student, row.name)
+    written = False
     for name in row.notebooks:
         source = folder / f"{name}.ipynb"
-        if not source.is_file():
-            continue
-        html = render(_read(source), sheets.of(student, name), hidden=hidden, image=images_of(folder))
         page = target / f"{name}.html"
+        if not source.is_file():
+            page.unlink(missing_ok=True)  # of an earlier submission
+            continue
+        html = render(_read(source), sheets.of(student, name, folder), hidden=hidden, image=images_of(folder))
         _put(page, html.encode("utf-8", "replace"), course.permissions("GenerateFeedback"))
-        pages.append(page)
-    stamp = folder / TIMESTAMP
-    if pages and stamp.is_file():  # nbgrader compares it to know whether its feedback is up to date
-        _put(target / TIMESTAMP, read_file(stamp, 10_000), course.permissions("GenerateFeedback"))
-    return pages
+        written = True
+        yield page
+    for beside in BESIDE:
+        if written and (folder / beside).is_file():
+            _put(target / beside, read_file(folder / beside, 10_000), course.permissions("GenerateFeedback"))
 
 
 def _read(path: Path) -> Mapping[str, Any]:

@@ -88,7 +88,7 @@ def grade_one(plan: Plan, student: str, submitted: Submission) -> Outcome:
     status: Status = "graded" if work.written else ("broken" if work.broken else "empty")
     report = StudentReport(
         student, status, tuple(work.cells), notes=tuple(work.notes), broken=tuple(work.broken), faults=tuple(work.faults),
-        seconds=time.monotonic() - started,
+        seconds=time.monotonic() - started, missing=tuple(work.missing),
     )  # fmt: skip
     files = {**work.files, **plan.instructor_files, **work.written} if work.written else {}
     return Outcome(student, Record(student, timestamp, work.marks), files, report, submitted.digest, work.hurried)
@@ -106,6 +106,7 @@ class _Work:
         self.notes = list(submitted.notes)
         self.broken: list[str] = []
         self.faults: list[str] = []
+        self.missing: list[str] = []
         self.hurried = False
         unknown = sorted(path for path in submitted.files if path.endswith(".ipynb") and path[:-6] not in plan.masters)
         self.notes += [f"{path}: not a notebook of this assignment, left out" for path in unknown]
@@ -125,6 +126,7 @@ class _Work:
             self.marks[name] = NotebookMarks(missing=True)
             self._report(name, master, {cell.name: Mark(0.0) for cell in master.graded})
             self.notes.append(f"{name}.ipynb: not handed in")
+            self.missing.append(name)
             return
         try:
             built = rebuild(parse(data), master, add_missing=rules.add_missing, missing=rules.missing_notification)

@@ -45,8 +45,8 @@ class StudentReport:
     """One submission.
 
     ``status``: graded now; unchanged since it was graded; broken (no notebook of it could be read); empty (no notebook handed
-    in); failed (the grader could not do its part). ``broken`` names what was wrong with the submission, ``faults`` what went
-    wrong on the grader's side, ``notes`` what an instructor may want to know.
+    in); failed (the grader could not do its part). ``missing`` names notebooks that were not handed in, ``broken`` what was
+    wrong with the submission, ``faults`` what went wrong on the grader's side, ``notes`` what an instructor may want to know.
     """
 
     student: str
@@ -61,6 +61,7 @@ class StudentReport:
     faults: tuple[str, ...] = ()
     seconds: float = 0.0
     name: str = ""
+    missing: tuple[str, ...] = ()
 
     @property
     def looks(self) -> int:
@@ -75,7 +76,7 @@ class StudentReport:
     def from_dict(cls, data: Mapping[str, Any]) -> StudentReport:
         """The inverse of ``to_dict``, after JSON too."""
         cells = tuple(CellReport(**cell) for cell in data["cells"])
-        lists = {key: tuple(data[key]) for key in ("notes", "broken", "faults")}
+        lists = {key: tuple(data.get(key, ())) for key in ("notes", "broken", "faults", "missing")}
         return cls(**{**data, "cells": cells, **lists})
 
 

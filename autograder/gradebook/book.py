@@ -20,8 +20,9 @@ import sqlalchemy as sa
 from sqlalchemy.engine import Connection
 
 from autograder.errors import CourseError
+from autograder.gradebook import reading
 from autograder.gradebook.engine import engine_of, parsed
-from autograder.gradebook.reading import notebook_row
+from autograder.gradebook.reading import cell_of, graded, notebook_of, notebook_row
 from autograder.gradebook.records import AssignmentRow, NotebookMarks, NotebookRow, Penalty, Record, Standing
 from autograder.gradebook.tables import (
     assignment,
@@ -144,6 +145,11 @@ class Gradebook:
                 connection.execute(_PENALTY, taken)
             return found
 
+    def marked(self, of: AssignmentRow) -> list[str]:
+        """The students who have marks of an assignment, in order."""
+        with self._begin() as connection:
+            return sorted(connection.scalars(reading.marked(of)))
+
     def read_marks(
         self, of: AssignmentRow, only: Sequence[str] | None = None
     ) -> dict[str, dict[tuple[str, str], tuple[float | None, bool]]]:
@@ -164,8 +170,8 @@ class Gradebook:
             handed_in = sa.select(submitted_assignment.c.id).where(
                 submitted_assignment.c.assignment_id == of.id, submitted_assignment.c.student_id.in_(only)
             )
-            mine = sa.select(submitted_notebook.c.id).where(submitted_notebook.c.assignment_id.in_(handed_in), _notebook_of(of))
-            query = query.where(grade.c.notebook_id.in_(mine), _cell_of(of))
+            mine = sa.select(submitted_notebook.c.id).where(submitted_notebook.c.assignment_id.in_(handed_in), notebook_of(of))
+            query = query.where(grade.c.notebook_id.in_(mine), cell_of(of))
         found: dict[str, dict[tuple[str, str], tuple[float | None, bool]]] = {}
         with self._begin() as connection:
             for row in connection.execute(query):
@@ -174,9 +180,9 @@ class Gradebook:
 
     def standings(self, of: AssignmentRow, only: Sequence[str] | None = None) -> dict[str, Standing]:
         """The standing of every student who handed something in, or only of these few hundred."""
-        mine = submitted_notebook.c.assignment_id == submitted_assignment.c.id, _notebook_of(of)
+        mine = submitted_notebook.c.assignment_id == submitted_assignment.c.id, notebook_of(of)
         marked = grade.join(submitted_notebook, grade.c.notebook_id == submitted_notebook.c.id)
-        score = sa.select(_sum(score_of)).select_from(marked).where(*mine, _cell_of(of))
+        score = sa.select(_sum(score_of)).select_from(marked).where(*mine, cell_of(of))
         penalty = sa.select(_sum(submitted_notebook.c.late_submission_penalty)).where(*mine)
         query = sa.select(
             submitted_assignment.c.student_id,
@@ -193,22 +199,18 @@ class Gradebook:
                 for row in connection.execute(query)
             }
 
-    def penalties(self, of: AssignmentRow) -> dict[tuple[str, str], float]:
-        """Points taken off for lateness, by (student, notebook)."""
+    def penalties(self, of: AssignmentRow, only: Sequence[str] | None = None) -> dict[tuple[str, str], float]:
+        """Points taken off for lateness, by (student, notebook); of all students, or only of these few hundred."""
         names = {row.id: name for name, row in of.notebooks.items()}
-        joined = submitted_notebook.join(submitted_assignment, submitted_notebook.c.assignment_id == submitted_assignment.c.id)
-        query = (
-            sa.select(
-                submitted_assignment.c.student_id,
-                submitted_notebook.c.notebook_id,
-                submitted_notebook.c.late_submission_penalty,
-            )
-            .select_from(joined)
-            .where(submitted_assignment.c.assignment_id == of.id)
-        )
         with self._begin() as connection:
-            rows = connection.execute(query)
+            rows = connection.execute(reading.penalties(of, only))
             return {(row.student_id, names[row.notebook_id]): row.late_submission_penalty or 0.0 for row in rows}
+
+    def unmarked(self, of: AssignmentRow, name: str) -> set[str]:
+        """The notebooks of a student of which some part has no mark by the grader; one that was not handed in has zeros."""
+        names = {row.id: name for name, row in of.notebooks.items()}
+        with self._begin() as connection:
+            return {names[row.notebook_id] for row in connection.execute(reading.unmarked(of, name))}
 
     def comments(self, of: AssignmentRow, name: str) -> dict[tuple[str, str], str]:
         """The comment that a student reads, by (notebook, cell): the instructor's, else the automatic one."""
@@ -221,7 +223,7 @@ class Gradebook:
             sa.select(comment.c.cell_id, shown.label("text"))
             .select_from(joined)
             .where(submitted_assignment.c.assignment_id == of.id, submitted_assignment.c.student_id == name)
-            .where(comment.c.cell_id.in_(kinds), _notebook_of(of))
+            .where(comment.c.cell_id.in_(kinds), notebook_of(of))
         )
         with self._begin() as connection:
             return {kinds[row.cell_id]: row.text for row in connection.execute(query) if row.text}
@@ -254,7 +256,7 @@ class Gradebook:
         ]
         self._insert(connection, submitted_notebook, rows)
         columns = submitted_notebook.c
-        known = sa.select(columns.assignment_id, columns.notebook_id, columns.id).where(_notebook_of(of))
+        known = sa.select(columns.assignment_id, columns.notebook_id, columns.id).where(notebook_of(of))
         return {(sub, nb): id for sub, nb, id in _chunked(connection, known, columns.assignment_id, submissions)}
 
     def _cells(self, connection: Connection, of: AssignmentRow, notebooks: Mapping[tuple[str, str], str]) -> None:
@@ -293,21 +295,6 @@ class Gradebook:
             connection.execute(_SCORE, scores)
         if comments:
             connection.execute(_COMMENT, comments)
-
-
-# nbgrader's indexes begin with the cell of a grade and the notebook of a submission: a query that names only what comes second
-# reads a whole table, so these name the first too.
-def _graded(row: NotebookRow) -> list[str]:
-    """Ids of the cells that have a grade."""
-    return [*row.graded.values(), *row.tasks.values()]
-
-
-def _cell_of(of: AssignmentRow) -> sa.ColumnElement[bool]:
-    return grade.c.cell_id.in_([id for row in of.notebooks.values() for id in _graded(row)])
-
-
-def _notebook_of(of: AssignmentRow) -> sa.ColumnElement[bool]:
-    return submitted_notebook.c.notebook_id.in_([row.id for row in of.notebooks.values()])
 
 
 def _sum(column: Any) -> sa.ColumnElement[float]:
@@ -373,7 +360,7 @@ def _standing(
     total = taken = 0.0
     for name, given in record.notebooks.items():
         place = notebooks[id, of.notebooks[name].id]
-        score = float(connection.scalar(_TOTAL, {"nb": place, "cells": _graded(of.notebooks[name])}) or 0.0)
+        score = float(connection.scalar(_TOTAL, {"nb": place, "cells": graded(of.notebooks[name])}) or 0.0)
         total += score
         if given.missing or given.broken:
             continue

@@ -3,22 +3,28 @@
 Spreadsheets take a cell that begins with ``=``, ``+``, ``-``, ``@``, a tab or a carriage return for a formula, and run it with
 the rights of whoever opens the file. Names, ids and cell names come from outside, so a text that begins so gets an apostrophe
 before it, which spreadsheets take for "text"; numbers stay numbers.
+
+The gradebook is read fifty students at a time, and the rows are written one after the other: what is held of a large class is
+a row each of its marks, a few hundred bytes.
 """
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TextIO
 
 from autograder.gradebook.book import Gradebook
+from autograder.gradebook.records import AssignmentRow
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+BATCH = 50
 Cell = str | float | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Marks:
     """One student's marks: points by column, None where there is no mark yet; ``open`` counts what waits for a person."""
 
@@ -63,10 +69,16 @@ def sheet(book: Gradebook, assignment: str) -> Sheet:
         for cell in notebook.master.cells.values()
         if cell.grade or cell.task
     )
-    marks, penalties, names = book.read_marks(row), book.penalties(row), book.students()
-    return Sheet(
-        assignment, columns, tuple(_row(student, marks[student], penalties, names, columns) for student in sorted(marks))
-    )
+    return Sheet(assignment, columns, tuple(_rows(book, row, columns)))
+
+
+def _rows(book: Gradebook, row: AssignmentRow, columns: Sequence[tuple[str, str, float]]) -> Iterator[Marks]:
+    students = book.marked(row)
+    for start in range(0, len(students), BATCH):
+        some = students[start : start + BATCH]
+        marks, penalties, names = book.read_marks(row, some), book.penalties(row, some), book.students(some)
+        for student in some:
+            yield _row(student, marks.get(student, {}), penalties, names, columns)
 
 
 def _row(
@@ -86,23 +98,32 @@ def _row(
     )
 
 
-def table(sheet: Sheet) -> list[list[Cell]]:
-    """The header and the rows: id, name, a column for each graded cell, penalty, total, available, open."""
+def header(sheet: Sheet) -> list[str]:
+    """Names of the columns: id, name, one for each graded cell, penalty, total, available, open."""
     several = len({notebook for notebook, _, _ in sheet.columns}) > 1
     names = [f"{notebook}/{cell}" if several else cell for notebook, cell, _ in sheet.columns]
-    header: list[Cell] = ["student", "name", *names, "penalty", "total", "available", "open"]
-    rows: list[list[Cell]] = [
-        [mine.student, mine.name, *mine.points, mine.penalty, mine.total, sheet.available, float(mine.open)]
-        for mine in sheet.rows
-    ]
-    return [header, *rows]
+    return ["student", "name", *names, "penalty", "total", "available", "open"]
+
+
+def lines(sheet: Sheet) -> Iterator[list[Cell]]:
+    """The rows under :func:`header`, one at a time."""
+    available = sheet.available
+    for mine in sheet.rows:
+        yield [mine.student, mine.name, *mine.points, mine.penalty, mine.total, available, float(mine.open)]
 
 
 def as_csv(sheet: Sheet) -> str:
     """The table as CSV (RFC 4180) in which no text can be a formula."""
     out = io.StringIO()
-    csv.writer(out, lineterminator="\r\n").writerows([_written(cell) for cell in line] for line in table(sheet))
+    write_csv(sheet, out)
     return out.getvalue()
+
+
+def write_csv(sheet: Sheet, file: TextIO) -> None:
+    """Write the same to a file that is open for text and leaves the ends of lines as they are."""
+    writer = csv.writer(file, lineterminator="\r\n")
+    writer.writerow([_written(name) for name in header(sheet)])
+    writer.writerows([_written(cell) for cell in line] for line in lines(sheet))
 
 
 def _written(cell: Cell) -> str:

@@ -168,6 +168,8 @@ SHOWN: dict[str, str] = {
     "feedback.language": "en",
     "feedback.total": "{points} of {available} points",
     "feedback.late": "{points} points were taken off for handing in late.",
+    "feedback.missing": "{notebook} was not handed in under that name: {points} of {available} points.",
+    "feedback.unread": "{notebook} could not be read: {points} of {available} points. Ask your instructor.",
     "feedback.part": "Part",
     "feedback.points": "Points",
     "feedback.of": "of",

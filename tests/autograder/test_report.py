@@ -77,6 +77,22 @@ def test_a_notebook_under_another_name_is_named_with_what_was_wanted():
     assert f"ada: {'; '.join(notes)}" in out.getvalue()
 
 
+def test_one_notebook_of_several_that_was_not_handed_in_is_named_in_the_table():
+    """Beside the student, who has marks for the other; who handed in nothing at all has that said already."""
+    rows = (
+        student("ada", cell("cylinder", 4.0), missing=("solids", "sweeps\x1b[2J")),
+        student("bob", cell("cylinder", 0.0), status="unchanged", missing=("solids",), penalty=1.0),
+        student("eve", cell("cylinder", 0.0), status="empty", missing=("nb", "solids")),
+    )
+    graded = GradeReport("geo", "A1", "A", rows, available=8.0)
+    out = io.StringIO()
+    Console(file=out, width=160, color_system=None).print(report.table(graded))
+    assert "solids, sweeps\ufffd[2J not handed in" in out.getvalue()
+    assert "unchanged, solids not handed in, late: -1" in out.getvalue()
+    assert out.getvalue().count("not handed in") == 2
+    assert report.summary(graded)["missing"]["bob"] == ["solids"]
+
+
 def test_names_and_messages_cannot_steer_the_terminal():
     text = shown()
     assert "\x1b" not in text

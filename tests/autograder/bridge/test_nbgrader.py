@@ -108,6 +108,23 @@ def test_feedback_is_the_same_page_and_tells_no_secrets(both):
     assert {page: page.stat().st_mtime_ns for page in feedback.write(ours.course(), "ps1")} == again
 
 
+def test_nbgrader_releases_the_feedback_that_we_wrote(ordinary, tmp_path):
+    """It reads the time of handing in and the secret of the exchange beside the pages, and stops where they are not."""
+    place = ordinary.folder / "autograded/ada/ps1"
+    place.mkdir(parents=True)
+    shutil.copy(ordinary.folder / "release/ps1/one.ipynb", place)
+    (place / "timestamp.txt").write_text("2027-02-01 11:00:00.000000 UTC")
+    (place / "submission_secret.txt").write_text("s3cret")
+    ordinary.configure(f'c.Exchange.root = "{tmp_path / "exchange"}"\n')
+    (tmp_path / "exchange").mkdir(mode=0o777)
+    (tmp_path / "exchange").chmod(0o777)
+    (page,) = feedback.write(ordinary.course(), "ps1")
+    done = nbgrader(ordinary.folder, "release_feedback", "ps1")
+    assert done.returncode == 0, done.stderr
+    released = list((tmp_path / "exchange" / "ordinary" / "feedback").glob("*.html"))
+    assert [path.read_bytes() for path in released] == [page.read_bytes()]
+
+
 def test_what_would_hold_the_class_or_fill_the_disk_is_named_and_the_others_are_graded(ordinary, bridge_line):
     """nbgrader alone waits for ever at the FIFO, and copies zeros until the disk is full."""
     ordinary.configure(bridge_line)

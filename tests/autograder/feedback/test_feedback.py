@@ -216,6 +216,27 @@ def test_pages_are_written_for_who_is_graded(ordinary):
         feedback.write(ordinary.course(), "ps1", ["eve"])
 
 
+def test_a_notebook_without_a_page_is_named_on_the_page_of_the_other(ordinary):
+    """One was not handed in, one could not be read; the page of an earlier submission of it goes."""
+    ordinary.hand_in("ada", {"one": RIGHT, "two": {}}, files={"submission_secret.txt": b"s3cret"})
+    ordinary.hand_in("bob", {"one": RIGHT, "two": "{broken"})
+    graded = fleet.grade(ordinary.course(), "ps1")
+    assert graded.student("ada").missing == graded.student("bob").missing == ()
+    assert "under that name" not in feedback.write(ordinary.course(), "ps1", ["ada"])[0].read_text()
+    folder = ordinary.folder / "feedback" / "ada" / "ps1"
+    assert {path.name for path in folder.iterdir()} == {"one.html", "two.html", "submission_secret.txt"}
+    ordinary.hand_in("ada", {"one": RIGHT})
+    for status in ("graded", "unchanged"):
+        again = fleet.grade(ordinary.course(), "ps1").student("ada")
+        assert (again.status, again.missing) == (status, ("two",))
+    assert fleet.standing(ordinary.course(), "ps1").student("ada").missing == ("two",)
+    ada, bob = feedback.write(ordinary.course(), "ps1")
+    assert (ada.name, bob.name) == ("one.html", "one.html")
+    assert not (folder / "two.html").exists()
+    assert "<b>two</b> was not handed in under that name: 0 of 1 points." in ada.read_text()
+    assert "<b>two</b> could not be read: 0 of 1 points. Ask your instructor." in bob.read_text()
+
+
 def test_a_card_and_its_figure_are_on_the_page_and_json_cannot_leave_its_element(surfaces):
     wrong = "def cylinder(u, w, r, h):\n    u, w = np.broadcast_arrays(u, w)\n    a = 2 * np.pi * w\n"
     wrong += "    return np.stack([r * np.cos(a), r * np.sin(a), h * u], axis=-1)"

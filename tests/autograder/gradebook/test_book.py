@@ -118,6 +118,8 @@ def test_a_part_of_the_class_reads_as_in_the_whole(book, ordinary):
         assert whole.keys() == {"ada", "bob", "eve"}
         assert read(some) == {name: whole[name] for name in ("ada", "eve")}
         assert read([]) == {}
+    assert book.penalties(row, some) == {key: taken for key, taken in book.penalties(row).items() if key[0] in some}
+    assert len(book.penalties(row, some)) == 4
 
 
 def test_no_statement_about_some_submissions_reads_those_of_all(book):
@@ -137,7 +139,10 @@ def test_no_statement_about_some_submissions_reads_those_of_all(book):
     book.standings(row, ["ada"])
     book.students(["ada"])
     book.comments(row, "ada")
-    assert len(plans) > 20
+    book.penalties(row, ["ada"])
+    book.unmarked(row, "ada")
+    book.marked(row)
+    assert len(plans) > 30
     assert [plan for plan in plans if plan.startswith("SCAN")] == []
 
 

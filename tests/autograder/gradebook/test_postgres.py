@@ -49,6 +49,9 @@ def test_the_same_writes_leave_the_same_rows_in_both(book, in_postgres, ordinary
         assert book.standings(ours) == lite.standings(theirs)
         assert book.read_marks(ours) == lite.read_marks(theirs)
         assert book.penalties(ours) == lite.penalties(theirs)
+        assert book.penalties(ours, ["s5"]) == lite.penalties(theirs, ["s5"])
+        assert book.marked(ours) == lite.marked(theirs)
+        assert book.unmarked(ours, "s5") == lite.unmarked(theirs, "s5")
         assert book.comments(ours, "s5") == lite.comments(theirs, "s5")
         assert {s.penalty for s in book.standings(ours).values()} == {0.0, 2.5}
 
