@@ -11,12 +11,13 @@ import binascii
 import json
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import nh3
 
 from autograder.messages import say
+from autograder.notebook.shallow import shallow
 from autograder.notebook.told import told
 from autograder.sandbox.outputs import Drawn
 
@@ -60,13 +61,13 @@ _STYLES = {
 _FETCHING = re.compile(r"mapbox|geo|choropleth|(scatter|density)map")
 _RAW_TAG = re.compile(r"<(?=[A-Za-z/!?])(?!https?://[^\s<>\"']+>)")
 _FENCE = re.compile(r" {0,3}(`{3,}|~{3,})(.*)")
-_CODE_SPAN = re.compile(r"(?<!`)(`+)(?!`)(.+?)(?<!`)\1(?!`)")
+_TICKS = re.compile("`+")
 
 
 def clean_html(html: str) -> str:
     """HTML without scripts, event handlers, forms, classes and ids, and without anything that is fetched."""
     return nh3.clean(
-        html,
+        shallow(html, _TAGS),
         tags=_TAGS,
         attributes=_ATTRIBUTES,
         attribute_filter=_attribute,
@@ -126,10 +127,25 @@ def escape_markdown(source: str) -> str:
 def _escaped_line(line: str) -> str:
     parts = []
     end = 0
-    for span in _CODE_SPAN.finditer(line):
-        parts += [_RAW_TAG.sub("&lt;", line[end : span.start()]), span[0]]
-        end = span.end()
+    for begun, ended in _code_spans(line):
+        parts += [_RAW_TAG.sub("&lt;", line[end:begun]), line[begun:ended]]
+        end = ended
     return "".join([*parts, _RAW_TAG.sub("&lt;", line[end:])])
+
+
+def _code_spans(line: str) -> Iterator[tuple[int, int]]:
+    """Code between two runs of equally many backticks; in one pass, however many runs have no second."""
+    runs = [run.span() for run in _TICKS.finditer(line)]
+    closing: list[int] = []  # the end of the next run of the same length, from the last run to the first; 0 if there is none
+    later: dict[int, int] = {}
+    for start, end in reversed(runs):
+        closing.append(later.get(end - start, 0))
+        later[end - start] = end
+    at = 0
+    for (start, _), end in zip(runs, reversed(closing), strict=True):
+        if end and start >= at:
+            yield start, end
+            at = end
 
 
 def text(value: object, limit: int = MAX_TEXT) -> str:
