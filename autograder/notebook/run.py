@@ -134,9 +134,9 @@ def run(
         ran.hurried = runner.hurried or bool(runner.spent and runner.late)
     if apart is not None and apart.kernel is not None and apart.script.engine == "jupyter":
         _in_a_kernel(rebuilt, ran, apart)
-    shown = limit.Shown()
-    for cell, graded in learners:  # once more: what was updated since may have grown
-        cell["outputs"] = safe.outputs(shown.cut(cell["outputs"], graded=graded))
+    shown, cleaned = limit.Shown(), limit.Shown()
+    for cell, graded in learners:  # once more: what was updated since may have grown, and so may what is made harmless
+        cell["outputs"] = cleaned.cut(safe.outputs(shown.cut(cell["outputs"], graded=graded)), graded=graded)
         for output in cell["outputs"]:
             if output["output_type"] == "execute_result":
                 output["execution_count"] = cell["execution_count"]

@@ -12,6 +12,8 @@ from typing import Any
 
 from autograder.notebook.safe import FIGURE
 
+MANY_LINES, SHORT_LINE = 5000, 10  # lines of a text, characters of a line
+
 
 def dumps(notebook: Mapping[str, Any]) -> bytes:
     """The file of a valid nbformat-4 notebook: sorted keys, texts split into lines, one newline at the end."""
@@ -25,8 +27,14 @@ def dumps(notebook: Mapping[str, Any]) -> bytes:
     return "".join([*parts, text, "\n"]).encode("utf-8")
 
 
+def _lines(text: str) -> list[str] | str:
+    """The lines of a text; the text itself where they are many with hardly anything in them, for each takes 15 bytes more."""
+    lines = text.splitlines(True)
+    return lines if len(lines) <= MANY_LINES or len(text) >= SHORT_LINE * len(lines) else text
+
+
 def _cell(cell: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any]:
-    split = {**cell, "source": cell["source"].splitlines(True)}
+    split = {**cell, "source": _lines(cell["source"])}
     if "outputs" in cell:
         split["outputs"] = [_output(output, figures) for output in cell["outputs"]]
     return split
@@ -34,9 +42,9 @@ def _cell(cell: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any]:
 
 def _output(output: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any]:
     if output["output_type"] == "stream":
-        return {**output, "text": output["text"].splitlines(True)}
+        return {**output, "text": _lines(output["text"])}
     if "data" in output:
-        data = {mime: value.splitlines(True) if mime.startswith("text/") else value for mime, value in output["data"].items()}
+        data = {mime: _lines(value) if mime.startswith("text/") else value for mime, value in output["data"].items()}
         if isinstance(data.get(FIGURE), dict):
             place = secrets.token_hex(16)  # nothing that a learner wrote can be this
             written = getattr(data[FIGURE], "written", "")  # where it was written already

@@ -276,7 +276,7 @@ class Session:
             status, number, shown, changed = _checked_cell(answer, limits)
         except WireError as error:
             raise self._breach(error) from None
-        for output, name in changed:
+        for name, output in {name: output for output, name in changed}.items():  # the last counts
             for earlier in self._shown.get(name, []):
                 earlier.update(data=output["data"], metadata=output["metadata"])
         for output, name in shown:

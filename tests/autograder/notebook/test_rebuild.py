@@ -168,6 +168,19 @@ def test_a_file_is_written_as_nbformat_writes_it():
     assert dumps(made.notebook).decode() == expected
 
 
+def test_a_text_of_newlines_takes_no_line_of_the_file_for_each():
+    """A million of them would be a file of 15 MB."""
+    made = built(cell("x = 1"))
+    blank = "\n" * 100_000
+    shown = {"output_type": "display_data", "metadata": {}, "data": {"text/plain": blank}}
+    made.cells[0]["outputs"] = [{"output_type": "stream", "name": "stdout", "text": blank}, shown]
+    written = dumps(made.notebook)
+    assert len(written) < 500_000
+    read = nbformat.reads(written.decode(), as_version=4)
+    nbformat.validate(read)
+    assert read.cells[0].outputs[1]["data"]["text/plain"] == read.cells[0].outputs[0]["text"] == blank
+
+
 def test_long_outputs_are_cut_as_nbgrader_cuts_them():
     from nbgrader.preprocessors import LimitOutput
 

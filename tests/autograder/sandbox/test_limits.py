@@ -197,6 +197,18 @@ def test_updates_of_a_display_do_not_add_up(sandbox):
         assert "cut here" in text(flood)
 
 
+def test_many_updates_of_one_display_cost_as_much_as_the_last(sandbox):
+    """A recorder that was tampered with tells of 9000 updates, and each would go to all places of that display."""
+    tampered = "R = get_ipython().recorder\n"
+    with sandbox.open() as session:
+        for _ in range(20):
+            shown = session.run_cell(tampered + "R.outputs += [['display_data', [('text/plain', 'a')], (), 'n']] * 390")
+        began = time.process_time()
+        session.run_cell(tampered + "R.updates = {i: ['', [('text/plain', f'{i}')], (), 'n'] for i in range(9000)}")
+        assert time.process_time() - began < 3.0
+    assert {output["data"]["text/plain"] for output in shown.outputs} == {"8999"}
+
+
 def test_an_error_is_shown_even_after_too_much_output(sandbox):
     with sandbox.open(limits=Limits(output=1000)) as session:
         result = session.run_cell("print('x' * 5000)\n1 / 0")
