@@ -40,7 +40,7 @@ plot.walk(tube, [(0, 0), (1, 1)])
 quarter = None  # for example (1, 2, 3)
 
 # %%
-reveal(quarter, np.round(tube(0.25, 0.25), 12) + 0.0)
+reveal(quarter, tuple((np.round(tube(0.25, 0.25), 12) + 0.0).tolist()))
 
 # %% [markdown]
 # ## 2 · The rule

@@ -778,4 +778,4 @@ except dx.WeightError as refused:
 # · B-spline and NURBS](../A7/bspline-and-nurbs.ipynb).
 #
 # Left open: you had to place sixteen points. What if somebody hands you the four *edges* only? Then the inner points must come
-# from somewhere, and that is [A8 · Boundary curves](../A8/boundary-and-solids.ipynb).
+# from somewhere, and that is the next chapter: [How four curves make a surface](04-how-four-curves-make-a-surface.ipynb).
