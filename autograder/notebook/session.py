@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from autograder.errors import IsolationError
 from autograder.exercise import Exercise
+from autograder.notebook.told import handed_over
 from autograder.sandbox import Limits, Policy, Sandbox
 from autograder.sandbox.kernel import KernelRun, run_notebook
 
@@ -42,11 +43,11 @@ def limits(timeout: float | None, *, exercises: bool) -> Limits:
 
 
 def environment(student: str) -> dict[str, str]:
-    """What a notebook finds in its environment: nbgrader's word, and the id of the student as on a JupyterHub.
+    """What a notebook finds in its environment: nbgrader's word, the id of the student as on a JupyterHub, words of ours.
 
     So numbers of one's own (:mod:`autograder.personal`) are in grading what they were on the hub, where nobody typed an id.
     """
-    return {**ENVIRONMENT, "JUPYTERHUB_USER": student} if student else ENVIRONMENT
+    return {**ENVIRONMENT, **handed_over(), **({"JUPYTERHUB_USER": student} if student else {})}
 
 
 @dataclasses.dataclass(frozen=True)

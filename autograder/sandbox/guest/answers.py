@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from autograder.sandbox.guest.words import say
+
 if TYPE_CHECKING:
     from autograder.sandbox.guest.shell import Shell
 
@@ -29,10 +31,10 @@ class TimeLimitExceeded(BaseException):
 def find(namespace: dict[str, Any], name: str) -> Callable[..., Any]:
     """The function of that name in the notebook."""
     if name not in namespace:
-        raise Missing(f"the notebook defines no function called {name}")
+        raise Missing(say("missing", name=name))
     function = namespace[name]
     if not callable(function):
-        raise Missing(f"{name} is not a function in the notebook but of type {type(function).__name__}")
+        raise Missing(say("no_function", name=name, type=type(function).__name__))
     return function  # type: ignore[no-any-return]
 
 
@@ -60,7 +62,7 @@ def _message(error: BaseException) -> str:
     try:
         return str(error)[:MESSAGE]
     except BaseException:  # a learner's own __str__
-        return "(its message cannot be shown)"
+        return say("unshown")
 
 
 def _bases(error: BaseException) -> tuple[str, ...]:

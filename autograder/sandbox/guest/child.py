@@ -23,7 +23,7 @@ import numpy as np
 
 from autograder.returned import plainly
 from autograder.sandbox import wire
-from autograder.sandbox.guest import answers, confine
+from autograder.sandbox.guest import answers, confine, words
 from autograder.sandbox.guest.answers import TimeLimitExceeded
 from autograder.sandbox.guest.peer import NoAnswer, Peer, Unreachable
 from autograder.sandbox.guest.shell import Shell
@@ -58,6 +58,7 @@ def main(job: int, level: str, limits: dict[str, Any], scratch: str, programme: 
     if scratch != confine.SCRATCH:
         set_environment(scratch)
     os.environ.update(environment)
+    words.install()
     as_a_notebook()
     server.seed = seed
     _reseed(seed, 0)
@@ -149,10 +150,10 @@ class Server:
                 value = function(*arguments)
             answer = (True, plainly(value))
             if (count := wire.count(answer)) > wire.ITEMS:
-                raise answers.Refused(f"the answer has {count} parts; at most {wire.ITEMS} are taken")
+                raise answers.Refused(words.say("parts", count=count, most=wire.ITEMS))
             body = wire.encode(answer, depth=wire.DEPTH + 1)
             if len(body) > limit:
-                raise answers.Refused(f"the answer has {len(body)} bytes; at most {limit} are taken")
+                raise answers.Refused(words.say("bytes", count=len(body), most=limit))
         return (wire.encode(tuple(failure)), failure[1]) if failure else (body, "")
 
     def serve(self, cpu: float, wall: float, output: int) -> None:
@@ -246,8 +247,8 @@ def _timed(cpu: float, wall: float) -> Iterator[None]:
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.setitimer(signal.ITIMER_REAL, 0)
         if number == signal.SIGPROF:
-            raise TimeLimitExceeded(f"stopped after {cpu:g} s of computing; is there a loop that never ends?")
-        raise TimeLimitExceeded(f"stopped after {wall:g} s by the clock; is it waiting for something?")
+            raise TimeLimitExceeded(words.say("computing", seconds=f"{cpu:g}"))
+        raise TimeLimitExceeded(words.say("clock", seconds=f"{wall:g}"))
 
     for number in (signal.SIGPROF, signal.SIGALRM):
         signal.signal(number, stop)

@@ -21,6 +21,8 @@ from typing import Any
 
 import numpy as np
 
+from autograder.sandbox.guest.words import say
+
 DEPTH = 24  # of containers in containers
 # Of a function: what can be learned of it without calling it.
 INSIDE = ["__code__", "__closure__", "__defaults__", "__kwdefaults__", "__globals__", "__annotations__", "__signature__"]
@@ -72,7 +74,7 @@ class Functions:
     def own(self, number: int) -> Any:
         """The function of this side with that number."""
         if not 0 <= number < len(self._own):
-            raise CannotCross("a function that was never handed over")
+            raise CannotCross(say("never_handed"))
         return self._own[number]
 
     def remote(self, number: int, name: str, doc: str | None) -> Callable[..., Any]:
@@ -108,7 +110,7 @@ class Remote:
 
     def __getattr__(self, name: str) -> Any:
         if name in INSIDE:
-            raise self._refuse(f"{name} of {self.__name__} stays in the learner's process")
+            raise self._refuse(say("stays", name=name, function=self.__name__))
         raise AttributeError(f"'function' object has no attribute '{name}'")
 
     def __repr__(self) -> str:
@@ -134,7 +136,7 @@ def pack(value: Any, functions: Functions, depth: int = DEPTH) -> Form:
         return ("b", kind.__name__, bytes(value))
     if kind in CONTAINERS.values() or kind is dict:
         if depth < 1:
-            raise CannotCross(f"lists, tuples or dictionaries more than {DEPTH} deep")
+            raise CannotCross(say("deep", most=DEPTH))
         if kind is dict:
             items = ((pack(key, functions, depth - 1), pack(item, functions, depth - 1)) for key, item in value.items())
             return ("{", tuple(items))
@@ -159,7 +161,7 @@ def _pack_other(value: Any, functions: Functions, depth: int) -> Form:
         return ("f", functions.number(value), _name(value), _doc(value))
     if isinstance(value, BaseException):
         return pack_error(value, functions, depth - 1)
-    raise CannotCross(f"an object of type {_type_name(value)}")
+    raise CannotCross(say("object", type=_type_name(value)))
 
 
 def pack_error(error: BaseException, functions: Functions, depth: int = 4) -> Form:
@@ -182,7 +184,7 @@ def _pack_array(array: np.ndarray[Any, Any]) -> Form:
         return ("t", array.dtype.str, array.shape, tuple(texts))
     if kind in "mM":
         return ("t", array.dtype.str, array.shape, tuple(array.ravel().view("i8").tolist()))
-    raise CannotCross(f"an array of dtype {array.dtype}")
+    raise CannotCross(say("dtype", dtype=array.dtype))
 
 
 def unpack(form: Any, functions: Functions) -> Any:
@@ -198,7 +200,7 @@ def unpack(form: Any, functions: Functions) -> Any:
     except CannotCross:
         raise
     except (TypeError, ValueError, KeyError, IndexError, AttributeError, OverflowError, RecursionError, MemoryError) as error:
-        raise CannotCross(f"something that is not a value ({type(error).__name__})") from None
+        raise CannotCross(say("no_value", exception=type(error).__name__)) from None
 
 
 def _unpack(form: Any, functions: Functions) -> Any:
@@ -206,7 +208,7 @@ def _unpack(form: Any, functions: Functions) -> Any:
     if tag == "=":
         (value,) = rest
         if value is not None and type(value) not in (bool, int, float, str):
-            raise CannotCross("a plain value that is none")
+            raise CannotCross(say("no_plain"))
         return value
     return _READERS[tag](functions, *rest)
 
@@ -227,7 +229,7 @@ def _stretch(functions: Functions, kind: str, *parts: Any) -> Any:
 def _array(_: Functions, dtype: str, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     wanted = np.dtype(dtype)
     if wanted.kind not in "biufc" or type(array) is not np.ndarray:
-        raise CannotCross("an array that is none")
+        raise CannotCross(say("no_array"))
     if wanted.newbyteorder("=") == np.uint64:
         array = array.view("u8")
     return array.astype(wanted)  # a copy: what arrived is read-only
@@ -240,7 +242,7 @@ def _scalar(functions: Functions, form: Form) -> Any:
 def _text_array(_: Functions, dtype: str, shape: tuple[int, ...], items: tuple[Any, ...]) -> np.ndarray[Any, Any]:
     wanted = np.dtype(dtype)
     if wanted.kind not in "USmM":
-        raise CannotCross("an array of text that is none")
+        raise CannotCross(say("no_text"))
     array = np.array(items, "i8").view(wanted) if wanted.kind in "mM" else np.array(items, wanted)
     return array.reshape(shape)
 
@@ -323,4 +325,4 @@ def _message(error: BaseException) -> str:
     try:
         return str(error)[:MESSAGE]
     except BaseException:  # a learner's own __str__
-        return "(its message cannot be shown)"
+        return say("unshown")

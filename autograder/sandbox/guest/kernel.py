@@ -19,8 +19,8 @@ from nbclient import NotebookClient
 from nbclient.exceptions import DeadKernelError
 
 from autograder.sandbox import system, wire
-from autograder.sandbox.guest import child, confine, seccomp
-from autograder.sandbox.guest.shell import MANY, MORE, _bundle, _sizes
+from autograder.sandbox.guest import child, confine, seccomp, words
+from autograder.sandbox.guest.shell import _bundle, _sizes, many, more
 
 PATH = "/python/bin:/usr/bin:/bin"
 SHOWS = ("stream", "display_data", "execute_result", "update_display_data", "error")
@@ -50,6 +50,7 @@ def _prepare(files: Any, environment: Any, limits: dict[str, Any]) -> None:
     child.lay_out(files)
     child.set_environment(confine.SCRATCH)
     os.environ.update(environment)
+    words.install()
     child.as_a_notebook()
     packages = ":".join(place for place in sys.path if place.startswith(("/packages", "/guest")))
     os.environ.update(
@@ -67,7 +68,7 @@ async def _run(sources: tuple[str | None, ...], limits: dict[str, Any], send: An
     notebook = nbformat.v4.new_notebook(cells=cells)  # type: ignore[no-untyped-call]
     client = Client(
         notebook, kernel_name="python3", timeout=float(limits["wall"]), interrupt_on_timeout=True, allow_errors=True,
-        error_on_timeout={"ename": "TimeLimit", "evalue": f"stopped after {limits['wall']:g} s", "traceback": []},
+        error_on_timeout={"ename": "TimeLimit", "evalue": words.say("clock", seconds=f"{limits['wall']:g}"), "traceback": []},
         startup_timeout=60, record_timing=False, store_widget_state=False,
     )  # fmt: skip
     client.room, client.count = int(limits["output"]), int(limits["outputs"])
@@ -103,8 +104,8 @@ class Client(NotebookClient):
             if used[cell_index] > self.room or len(cell.outputs) > self.count:
                 return None
             used[cell_index] += len(json.dumps(msg["content"], default=str))
-            note = MORE.format(self.room // 1000) if used[cell_index] > self.room else ""
-            note = note or (MANY.format(self.count) if len(cell.outputs) >= self.count else "")
+            note = more(self.room) if used[cell_index] > self.room else ""
+            note = note or (many(self.count) if len(cell.outputs) >= self.count else "")
             if note:
                 used[cell_index] = self.room + 1
                 cell.outputs.append(nbformat.from_dict({"output_type": "stream", "name": "stdout", "text": note}))  # type: ignore[no-untyped-call]

@@ -29,6 +29,7 @@ from autograder.sandbox import wire
 from autograder.sandbox.guest import crossing
 from autograder.sandbox.guest.answers import TimeLimitExceeded
 from autograder.sandbox.guest.crossing import CannotCross
+from autograder.sandbox.guest.words import say
 
 MOST = 64 * 2**20  # bytes of one message
 NESTED = 50  # calls within calls, to and fro
@@ -90,7 +91,7 @@ class Peer:
         try:
             forms = crossing.pack(arguments, self.functions), crossing.pack(keywords, self.functions)
         except CannotCross as error:
-            raise self._lose(f"the test hands over {error}, which cannot go to the learner's process") from None
+            raise self._lose(say("hands_over", what=error)) from None
         return self._ask(wire.PEER_CALL, (number, *forms), (arguments, keywords))
 
     def end(self) -> None:
@@ -107,7 +108,7 @@ class Peer:
     def _ask(self, kind: int, request: tuple[Any, ...], handed: tuple[Any, ...] = ()) -> Any:
         exchange = secrets.token_bytes(16)
         if self.nested >= NESTED:
-            raise RecursionError(f"more than {NESTED} calls to and fro between a test and the code it tests")
+            raise RecursionError(say("to_and_fro", most=NESTED))
         self.nested += 1
         try:
             self._send(kind, exchange, request)
@@ -122,7 +123,7 @@ class Peer:
 
     def _value(self, body: Any, handed: tuple[Any, ...]) -> Any:
         if not (isinstance(body, tuple) and len(body) == 5 and isinstance(body[2], str) and isinstance(body[3], str)):
-            raise self._lose("the learner's process answers nonsense")
+            raise self._lose(say("nonsense"))
         how, form, out, err, changed = body
         sys.stdout.write(out)
         sys.stderr.write(err)
@@ -130,13 +131,13 @@ class Peer:
             value = crossing.unpack(form, self.functions)
             after = None if changed is None else crossing.unpack(changed, self.functions)
         except CannotCross as error:
-            raise self._lose(f"the learner's process answers with {error}") from None
+            raise self._lose(say("answers_with", what=error)) from None
         if after is not None:
             crossing.restore(handed, after)
         if how == VALUE:
             return value
         if how == RAISED and isinstance(value, ENDS_A_LOOP):
-            raise RuntimeError(f"the function raised {type(value).__name__}") from value
+            raise RuntimeError(say("raised", exception=type(value).__name__)) from value
         if how == RAISED and isinstance(value, BaseException):
             raise value
         raise self._lose(str(value)[: crossing.MESSAGE])
@@ -155,7 +156,7 @@ class Peer:
         try:
             self._send(wire.REPLY, exchange, (how, form, *self.printed(), changed))
         except wire.WireError as error:
-            self._send(wire.REPLY, exchange, (LOST, ("=", f"the answer cannot be sent: {error}"), "", "", None))
+            self._send(wire.REPLY, exchange, (LOST, ("=", say("unsent", error=error)), "", "", None))
 
     def _answer(self, kind: int, request: Any) -> tuple[str, crossing.Form, crossing.Form | None]:
         """Do what is asked, and pack what comes of it; with it what the arguments are now, if they have changed."""
@@ -168,14 +169,14 @@ class Peer:
         except (TimeLimitExceeded, NoAnswer) as error:
             return LOST, ("=", str(error)), None
         except CannotCross as error:
-            what = str(request[0]) if kind == wire.NAME else "the answer"
-            return LOST, ("=", f"{what} is {error}, which cannot leave the notebook for this test"), None
+            name = str(request[0]) if kind == wire.NAME else say("answer")
+            return LOST, ("=", say("cannot_leave", name=name, what=error)), None
         except BaseException as error:  # SystemExit too: it is the caller's to meet
             how, form = RAISED, crossing.pack_error(error, self.functions)
         try:
             return how, form, self._changed(*handed) if handed else None
         except (CannotCross, wire.WireError) as error:
-            return LOST, ("=", f"an argument has {error} in it now, which cannot leave the notebook for this test"), None
+            return LOST, ("=", say("has_now", what=error)), None
 
     def _do(self, kind: int, request: Any, handed: list[Any]) -> Any:
         if kind == wire.NAME:
@@ -204,14 +205,14 @@ class Peer:
         try:
             self.link.sendall(wire.frame(kind, exchange, body))
         except OSError as error:
-            raise self._lose(f"the learner's process has ended ({error})") from None
+            raise self._lose(f"{say('ended')} ({error})") from None
 
     def _receive(self) -> tuple[int, bytes, Any]:
         try:
             kind, length, exchange = wire.header(self._exactly(wire.HEADER.size), MOST, wire.PEER_KINDS)
             body = wire.decode(self._exactly(length), depth=crossing.WIRE_DEPTH, items=MOST, raw=True)
         except wire.WireError as error:
-            raise self._lose(f"the learner's process does not keep to the protocol: {error}") from None
+            raise self._lose(say("protocol", error=error)) from None
         return kind, exchange, body
 
     def _exactly(self, count: int) -> bytes:
@@ -222,7 +223,7 @@ class Peer:
             except OSError:
                 part = b""
             if not part:
-                raise self._lose("the learner's process has ended")
+                raise self._lose(say("ended"))
             data += part
         return bytes(data)
 

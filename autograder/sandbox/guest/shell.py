@@ -30,13 +30,22 @@ from traitlets.config import Config
 
 from autograder.sandbox.guest.answers import TimeLimitExceeded
 from autograder.sandbox.guest.reading import Compiler, Plainly
+from autograder.sandbox.guest.words import say
 
 JSON_TYPES = ("application/json", "+json")
-MORE = "\n... the output of this cell is cut here: it shows more than {} kB.\n"
-MANY = "\n... the output of this cell is cut here: it shows more than {} things.\n"
 ERRORS = 300_000  # characters of tracebacks that one cell may show
 Output = list[Any]
 Sizes = tuple[tuple[str, int, int], ...]
+
+
+def more(size: int) -> str:
+    """The line after which output is left out that has more than so many bytes."""
+    return f"\n{say('more', size=size // 1000)}\n"
+
+
+def many(count: int) -> str:
+    """The same for more than so many outputs."""
+    return f"\n{say('many', count=count)}\n"
 
 
 class Recorder:
@@ -116,7 +125,7 @@ class Recorder:
             self.outputs.clear()
             self.clear_at_next = False
         if len(self.outputs) >= self.count:
-            self._stop(MANY.format(self.count))
+            self._stop(many(self.count))
             return False
         self.outputs.append(output)
         return True
@@ -131,12 +140,12 @@ class Recorder:
             self.left -= len(text)
             return text
         text, self.left, self.full = text[: self.left], 0, True
-        return text + MORE.format(self.size // 1000)
+        return text + more(self.size)
 
     def _fits(self, size: int) -> bool:
         """Take so much of what is left, or stop."""
         if size > self.left:
-            self._stop(MORE.format(self.size // 1000))
+            self._stop(more(self.size))
             return False
         self.left -= size
         return True
@@ -273,7 +282,7 @@ class Shell(InteractiveShell):
         try:
             value = str(evalue)
         except BaseException:  # a learner's own __str__
-            value = "(its message cannot be shown)"
+            value = say("unshown")
         lines = [str(line) for line in stb]
         self.told = etype, {"ename": str(etype.__name__), "evalue": value, "traceback": lines}
         self.recorder.error(str(etype.__name__), value, lines)
@@ -426,11 +435,11 @@ class Shell(InteractiveShell):
 
 
 def _no_input(prompt: object = "") -> str:
-    raise StdinNotImplementedError("input() has nobody to ask while the grader runs the notebook; use a variable instead")
+    raise StdinNotImplementedError(say("asks", name="input"))
 
 
 def _no_password(prompt: object = "", stream: object = None) -> str:
-    raise StdinNotImplementedError("getpass() has nobody to ask while the grader runs the notebook; use a variable instead")
+    raise StdinNotImplementedError(say("asks", name="getpass"))
 
 
 def _bundle(data: dict[str, Any]) -> list[tuple[str, str]]:

@@ -3,13 +3,15 @@
 import importlib
 from typing import Any
 
+from autograder.sandbox.guest.words import say as _say
+
 __all__ = ["check"]
 
 
 def check(function: object = None, *_: Any, **__: Any) -> None:
     """Say that judging is done elsewhere. In your own JupyterLab the same line shows a verdict at once."""
-    name = getattr(function, "__name__", "this function")
-    print(f"The grader is judging {name}; its verdict stands at the graded cell.")
+    name = getattr(function, "__name__", _say("this_function"))
+    print(_say("judging", name=name))
 
 
 def __getattr__(name: str) -> Any:
@@ -17,6 +19,4 @@ def __getattr__(name: str) -> Any:
         return importlib.import_module("autograder.personal")
     if name.startswith("__"):
         raise AttributeError(f"module 'autograder' has no attribute {name!r}")
-    raise ImportError(
-        f"autograder.{name} is not there while the grader runs a notebook: only autograder.check and autograder.personal are"
-    )
+    raise ImportError(_say("only_check", name=f"autograder.{name}"))

@@ -10,8 +10,9 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
+from autograder.sandbox.guest.words import say as _say
+
 THERE = ("plot", "errors", "checks")  # plot, and the two modules that it uses
-REASON = "{} is not there while the grader runs a notebook: the exercise is to write it yourself. directrix.plot may be used."
 
 
 class _Withheld:
@@ -21,7 +22,7 @@ class _Withheld:
     def find_spec(name: str, path: Sequence[str] | None = None, target: ModuleType | None = None) -> ModuleSpec | None:
         package, _, rest = name.partition(".")
         if package == "directrix" and rest and rest.split(".")[0] not in THERE:
-            raise ImportError(REASON.format(name), name=name)
+            raise ImportError(_say("only_plot", name=name), name=name)
         return None
 
 
@@ -33,4 +34,4 @@ def __getattr__(name: str) -> Any:
         return importlib.import_module(f"directrix.{name}")
     if name.startswith("__"):
         raise AttributeError(f"module 'directrix' has no attribute {name!r}")
-    raise ImportError(REASON.format(f"directrix.{name}"), name=f"directrix.{name}")
+    raise ImportError(_say("only_plot", name=f"directrix.{name}"), name=f"directrix.{name}")
