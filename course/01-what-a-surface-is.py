@@ -9,6 +9,7 @@
 
 # %% setup=true
 import directrix as dx
+from directrix.plot import palette
 
 from autograder.catalogue import shipped
 
@@ -184,6 +185,9 @@ curves = {
     "torus": (1.6 + np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)),
 }
 figure = go.Figure().update_layout(height=280, template="none", showlegend=False, margin={"l": 10, "r": 10, "t": 40, "b": 10})
+figure.update_layout(
+    paper_bgcolor=palette.CLEAR, plot_bgcolor=palette.CLEAR, font={"color": palette.INK, "family": palette.FONT}
+)
 for place, (name, (rho, z)) in enumerate(curves.items()):
     left = 5 * place
     figure.add_scatter(x=[left, left], y=[-2.6, 2.6], mode="lines", line={"color": "#888", "dash": "dash", "width": 1})

@@ -26,6 +26,9 @@ def flat(*places):
 def paper(height=340, **more):
     """An empty sheet for a drawing in the plane, the same scale both ways."""
     figure = go.Figure().update_layout(height=height, template="none", margin={"t": 10, "b": 10, "l": 10, "r": 10}, **more)
+    figure.update_layout(
+        paper_bgcolor=palette.CLEAR, plot_bgcolor=palette.CLEAR, font={"color": palette.INK, "family": palette.FONT}
+    )
     return figure.update_xaxes(visible=False).update_yaxes(visible=False, scaleanchor="x")
 
 
@@ -487,7 +490,10 @@ for at in np.arange(1, 6) / 6:
     figure.add_hline(at, line={"color": palette.KNOT, "width": 1.5}, col=2)
 figure.update_xaxes(title="u", tickvals=[0, 0.5, 1], constrain="domain").update_yaxes(title="w", tickvals=[0, 0.5, 1])
 figure.update_yaxes(scaleanchor="x", col=1).update_yaxes(scaleanchor="x2", col=2)
-figure.update_layout(height=380, template="none", margin={"t": 40, "b": 50, "l": 50, "r": 20})
+font = {"color": palette.INK, "family": palette.FONT}
+figure.update_layout(
+    height=380, template="none", margin={"t": 40, "b": 50, "l": 50, "r": 20}, paper_bgcolor=palette.CLEAR, font=font
+)
 
 # %% [markdown]
 # **What to see.** On the right twelve of the 36 squares: four spans along $w$, and three along $u$, where $P_{23}$ is near the
@@ -737,7 +743,7 @@ beyond = None  # (x, y), for example (0.5, 0.5)
 # %% fold=true
 figure = paper(440, legend={"x": 0.78, "y": 0.95, "title": {"text": "middle weight"}})
 weights = {"1": 1, "cos 45°": c45, "0.3": 0.3, "0": 0, "−0.4": -0.4, "−cos 45°": -c45}
-colours = ["#E69F00", palette.CURVE, palette.KNOT, palette.INK, "#CC79A7", "#8A3A00"]
+colours = ["#E69F00", palette.CURVE, palette.KNOT, palette.INK, "#CC79A7", palette.YOURS]
 for (name, weight), colour in zip(weights.items(), colours, strict=True):
     up = dx.BezierCurve([(1, 0, 1), (weight, weight, weight), (0, 1, 1)])(t_fine)
     draw(figure, up[:, :2] / up[:, 2:], name, colour, 5 if abs(weight) == c45 else 2)

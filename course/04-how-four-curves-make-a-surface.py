@@ -34,10 +34,11 @@ def striped(*panels, height=400, eye=(1.2, -1.9, 1.1), stripes=32):
         camera = {"eye": dict(zip("xyz", eye, strict=True))}
         axes = {axis: {"visible": False} for axis in ("xaxis", "yaxis", "zaxis")}
         figure.layout[scene] = {"domain": {"x": [left, right]}, "aspectmode": "data", "camera": camera, **axes}
-        figure.add_annotation(x=(left + right) / 2, y=1, text=name, showarrow=False, font={"size": 15, "color": palette.INK})
+        figure.add_annotation(x=(left + right) / 2, y=1, text=name, showarrow=False, font={"size": 15})
     alt = f"Two surfaces with stripes: {panels[0][0]} and {panels[1][0]}."
     meta = {"link": ["scene", "scene2"], "alt": alt}
     figure.update_layout(height=height, margin={"l": 0, "r": 0, "t": 10, "b": 0}, paper_bgcolor=palette.CLEAR, meta=meta)
+    figure.update_layout(font={"color": palette.INK, "family": palette.FONT})
     return figure.update_traces(showscale=False, hoverinfo="skip", lighting=palette.FLAT)
 
 
@@ -173,7 +174,7 @@ for name, duct in (("equal angles", usual), ("parallel tangents", rolled)):
     print(f"{name:18} Gaussian curvature up to {abs(duct.curvature(t[:, None], t).gaussian.min()):.4f} below 0")
 
 # %% fold=true
-striped(("equal angles", [usual]), ("parallel tangents", [rolled]), eye=(0.5, -1.7, 0.9))
+striped(("equal angles", [usual]), ("parallel tangents", [rolled]), eye=(0.5, -1.9, 1.0))
 
 # %% [markdown]
 # **Read the stripes.** A stripe is where the tangent plane stands at one and the same angle to the light. Right, each runs
@@ -219,7 +220,7 @@ figure = plot.view(lambda u, w: added(u, w, **frame), curves=frame, title="the s
 figure.update_layout(scene_camera_eye={"x": -1.5, "y": -1.4, "z": 0.9})
 
 # %% [markdown]
-# **The sum misses all four wires**, the further the frame is from the origin, the further. No wonder: the shares of the one part are
+# **The sum misses all four wires**, and by more, the further the frame is from the origin. No wonder: the shares of the one part are
 # together 1, those of the other too, so all of them are together **2**, and chapter 3 has told what comes of that. A shape
 # that depends on where the origin lies is no shape.
 #
@@ -279,7 +280,7 @@ with once_written():
 # %%
 parts = [dx.Ruled(c0, c1), beside(dx.Ruled(d0, d1).swap(), 10), beside(hung, 20), beside(sheet, 30)]
 figure = plot.view(parts[0], also=parts[1:], title="ruled along w · ruled along u · bilinear · first + second − third", lines=6)
-figure.update_layout(scene_camera_eye={"x": 0.02, "y": -0.8, "z": 0.5}, height=330)
+figure.update_layout(scene_camera_eye={"x": 0.0, "y": -0.6, "z": 0.4}, height=300)
 figure.update_scenes(xaxis_visible=False, yaxis_visible=False, zaxis_visible=False)
 
 # %% [markdown]
@@ -432,11 +433,14 @@ reveal(best_length, "about 1.66, that is 4(√2 − 1): then the middle lies on 
 
 # %% fold=true
 figure = go.Figure().update_layout(height=380, template="none", margin={"t": 10, "b": 10, "l": 10, "r": 10})
+figure.update_layout(
+    paper_bgcolor=palette.CLEAR, plot_bgcolor=palette.CLEAR, font={"color": palette.INK, "family": palette.FONT}
+)
 figure.update_xaxes(visible=False, range=[-1.2, 2.2]).update_yaxes(visible=False, scaleanchor="x", range=[-0.1, 1.6])
 angle = np.linspace(0, np.pi / 2, 91)
 grey = {"color": palette.INK, "width": 6, "dash": "dot"}
 figure.add_scatter(x=np.cos(angle), y=np.sin(angle), mode="lines", name="the circle", line=grey)
-colours = ["#E69F00", palette.CURVE, "#CC79A7", "#8A3A00"]
+colours = ["#E69F00", palette.CURVE, "#CC79A7", palette.YOURS]
 for length, colour in zip((1, 1.657, 3, 8), colours, strict=True):
     x, y = quarter(length).T
     figure.add_scatter(x=x, y=y, mode="lines", name=f"length {length}", line={"color": colour, "width": 3})
@@ -619,7 +623,7 @@ reveal(zero_divided_by, f"{errors['zero'][2] / errors['zero'][3]:.0f}; with the 
 # differs is less than a thousandth of the size.
 
 # %% fold=true
-striped(("zero twists", pieces(4, "zero")), ("twists of Coons", pieces(4, "coons")), eye=(1.35, 0.75, 0.35), stripes=40)
+striped(("zero twists", pieces(4, "zero")), ("twists of Coons", pieces(4, "coons")), eye=(1.5, 0.83, 0.4), stripes=40)
 
 # %% [markdown]
 # **What to see.** Left every stripe staggers at every corner, though everything is exact but the twists. Books have a name

@@ -205,4 +205,7 @@ SHOWN: dict[str, str] = {
     "site.compare": "Compare",
     "site.answer": "The answer",
     "site.one_way": "Show one way",
+    "site.walk": "▶ walk",
+    "site.pause": "❙❙ pause",
+    "site.place": "The marker's way, from its start to its end",
 }

@@ -1,4 +1,4 @@
-/* A reader's guesses, everything open at once, and paper. Without this script the answers open by hand and nothing is missing. */
+/* A reader's guesses, walks by keyboard, everything open at once, and paper. Without this script answers open by hand. */
 (function () {
   "use strict";
   function all(selector, within) { return Array.prototype.slice.call((within || document).querySelectorAll(selector)); }
@@ -15,6 +15,54 @@
       if (answers[0]) answers[0].querySelector("summary").focus();
     });
   });
+
+  // The slider and the button that plotly draws cannot be reached by keyboard: a walk gets real ones in their place. They are
+  // taken out of the figure before it is drawn, which it is only once the page stands.
+  var ROOM = 56; // pixels that they took
+  function walk(holder) {
+    var script = holder.querySelector("script");
+    if (script.textContent.indexOf('"sliders":[{') < 0) return;
+    var figure = JSON.parse(script.textContent), slider = figure.layout.sliders[0], at = 0, timer = null, busy = false;
+    delete figure.layout.sliders;
+    delete figure.layout.updatemenus;
+    figure.layout.height = (figure.layout.height || 450) - ROOM;
+    figure.layout.margin = Object.assign({}, figure.layout.margin, { b: Math.max((figure.layout.margin || {}).b - ROOM || 0, 0) });
+    holder.style.minHeight = figure.layout.height + "px";
+    script.textContent = JSON.stringify(figure).replace(/</g, "\\u003c");
+
+    var controls = document.getElementById("walk").content.firstElementChild.cloneNode(true);
+    var play = controls.querySelector("button"), input = controls.querySelector("input"), place = controls.querySelector("output");
+    var words = [play.textContent, play.dataset.pause], last = slider.steps.length - 1;
+    input.max = last;
+    holder.parentNode.insertBefore(controls, holder.nextSibling);
+
+    function move(to) {
+      at = to;
+      input.value = at;
+      place.textContent = slider.currentvalue.prefix + slider.steps[at].label;
+      input.setAttribute("aria-valuetext", place.textContent);
+      draw();
+    }
+    function draw() {
+      var plot = holder.querySelector(".js-plotly-plot"), shown = at;
+      if (!plot || busy) return;
+      busy = true;
+      function done() { busy = false; if (shown !== at) draw(); }
+      window.Plotly.animate(plot, slider.steps[shown].args[0], slider.steps[shown].args[1]).then(done, done);
+    }
+    function stop() { clearInterval(timer); timer = null; play.textContent = words[0]; }
+    play.addEventListener("click", function () {
+      if (timer) { stop(); return; }
+      if (at === last) move(0);
+      play.textContent = words[1];
+      timer = setInterval(function () { if (at === last) stop(); else if (!busy) move(at + 1); }, 80);
+    });
+    input.addEventListener("input", function () { stop(); move(Number(input.value)); });
+    // A figure far away is taken out of the page; when it is drawn again its marker stands at the start.
+    new MutationObserver(function () { if (!holder.querySelector(".js-plotly-plot")) { stop(); move(0); } }).observe(holder, { childList: true });
+    move(0);
+  }
+  all(".directrix-figure").forEach(walk);
 
   var wide = window.matchMedia("(min-width: 75rem)"), contents = document.querySelector("nav.places details");
   function place() { contents.open = wide.matches; }

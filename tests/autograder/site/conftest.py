@@ -44,7 +44,12 @@ def double(x):
 
 # %%
 print("doubled:", double(21))
-display({kind: {"data": [{"type": "scatter", "name": "a walk", "x": [0, 1], "y": [0, 1]}], "layout": {}}}, raw=True)
+marker = {"type": "scatter", "name": "a walk", "x": [0], "y": [0]}
+at_once = {"mode": "immediate", "frame": {"duration": 0, "redraw": True}, "transition": {"duration": 0}}
+steps = [{"label": f"step {i}", "method": "animate", "args": [[str(i)], at_once]} for i in range(4)]
+layout = {"height": 300, "margin": {"b": 96}, "sliders": [{"steps": steps, "currentvalue": {"prefix": "at "}}]}
+frames = [{"name": str(i), "data": [{"type": "scatter", "x": [i], "y": [i]}], "traces": [0]} for i in range(4)]
+display({kind: {"data": [marker], "layout": layout, "frames": frames}}, raw=True)
 
 # %% [markdown]
 # ## Where to go

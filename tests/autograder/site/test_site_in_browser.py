@@ -63,6 +63,31 @@ def test_a_reader_guesses_by_keyboard_and_sees_the_answer_and_its_figure(opened,
 
 
 @pytest.mark.browser
+def test_a_walk_is_walked_by_keyboard(opened):
+    """A range and a button that say where the marker is, in place of plotly's slider; the figure follows."""
+    page = opened("01-lines.html", viewport={"width": 900, "height": 700})
+    walks = page.locator(".walk")
+    assert walks.count() == 1
+    way, said, play = walks.locator("input"), walks.locator("output"), walks.locator("button")
+    marker = "[...document.querySelectorAll('.js-plotly-plot')].map(plot => plot.data[0].x[0]).at(-1)"
+    page.keyboard.press("End")  # the figure is drawn where it is seen
+    way.scroll_into_view_if_needed()
+    page.wait_for_function(f"{marker} === 0", timeout=30_000)
+    assert page.locator(".slider-container, .updatemenu-container").count() == 0
+    way.focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function(f"{marker} === 2")
+    assert said.inner_text() == way.get_attribute("aria-valuetext") == "at step 2"
+    play.focus()
+    waits = play.inner_text()
+    page.keyboard.press("Enter")
+    page.wait_for_function(f"{marker} === 3")
+    page.wait_for_function("text => document.querySelector('.walk button').textContent === text", arg=waits)  # it has stopped
+    assert page.faults == []
+
+
+@pytest.mark.browser
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_text_is_legible_in_light_and_dark(opened, scheme):
     page = opened("01-lines.html", viewport={"width": 1400, "height": 900}, color_scheme=scheme)
