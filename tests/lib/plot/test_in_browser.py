@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from directrix.plot import compare, page, view
+from directrix.plot import compare, page, palette, view
 from plotly.offline import get_plotlyjs
 
 pytestmark = pytest.mark.browser
@@ -201,3 +201,53 @@ def test_hostile_words_stay_words(opened):
     shown = opened(document(figure))
     assert shown.evaluate("() => window.broken === undefined")
     assert shown.evaluate("() => document.querySelectorAll('img').length") == 0
+
+
+PLAIN = {"template": {"data": {"scatter": [{"type": "scatter"}]}}, "height": 120}  # what plotly writes for template="none"
+
+
+def drawn_in(colour=None, **layout):
+    """A plane figure, its curve in that colour."""
+    curve = {"type": "scatter", "x": [0, 1], "y": [0, 1], **({"line": {"color": colour}} if colour else {})}
+    return {"data": [curve], "layout": {**PLAIN, **layout}}
+
+
+GROUNDS = {
+    "nothing said": (drawn_in(), True),
+    "a light line": (drawn_in("#56B4E9"), True),
+    "a scene": ({"data": [{"type": "scatter3d", "x": [0, 1], "y": [0, 1], "z": [0, 1]}], "layout": PLAIN}, True),
+    "a black line": (drawn_in("black"), False),
+    "dark points among others": (
+        {"data": [{"type": "scatter", "y": [1, 2], "marker": {"color": ["#FFF", "rgb(10, 20, 60)"]}}], "layout": PLAIN}, False,
+    ),
+    "a dark word": (drawn_in(title={"text": "a <span style='color: navy'>word</span>"}), False),
+    "its own ground": (drawn_in(paper_bgcolor="#FFFFEE"), False),
+    "a template's ground": (drawn_in(template={"layout": {"plot_bgcolor": "#E5ECF6"}}), False),
+}  # fmt: skip
+STANDS = """() => [...document.querySelectorAll('.js-plotly-plot')].map(({_fullLayout: shown}) => [
+  shown.paper_bgcolor, shown.plot_bgcolor || shown.scene.bgcolor, shown.font.color])"""
+
+
+def test_a_figure_without_a_ground_of_its_own_follows_the_page(opened):
+    """Greys of the palette on a dark page, unless a colour that it names would be lost there; on a light one as it is."""
+    style = "<style>body { background: #fff } @media (prefers-color-scheme: dark) { body { background: #14181d } }</style>"
+    html = document(*(figure for figure, _ in GROUNDS.values())).replace("</head>", f"{style}</head>")
+    shown = opened(html)
+    light = shown.evaluate(STANDS)
+    assert [stands[0] for stands in light] == ["#fff"] * 6 + ["#FFFFEE", "#fff"]
+    shown.emulate_media(color_scheme="dark")
+    shown.wait_for_timeout(700)
+    dark = shown.evaluate(STANDS)
+    clear = "rgba(0, 0, 0, 0)"
+    for stands, before, (_, follows) in zip(dark, light, GROUNDS.values(), strict=True):
+        assert stands == ([clear, clear, palette.INK] if follows else before)
+    written = shown.evaluate("[...document.querySelectorAll('.directrix-figure script')].map(one => one.textContent)")
+    assert [json.loads(text)["layout"] for text in written] == [figure["layout"] for figure, _ in GROUNDS.values()]
+    shown.emulate_media(color_scheme="light")
+    shown.wait_for_timeout(700)
+    assert shown.evaluate(STANDS) == light
+
+
+def test_the_greys_of_the_script_are_those_of_the_palette():
+    said = dict(re.findall(r'(INK|GRID|CLEAR) = "([^"]+)"', page.figures_js()))
+    assert said == {"INK": palette.INK, "GRID": palette.GRID, "CLEAR": palette.CLEAR}

@@ -7,11 +7,15 @@
  * In a static page this file also draws figures that are written as data,
  *   <div class="directrix-figure"><script type="application/vnd.plotly.v1+json">{...}</script></div>
  * when they come near the window, and takes them away when they are far: a browser keeps about 16 WebGL contexts for a page and
- * each scene is one. In JupyterLab it is loaded as a prebuilt extension (package.json beside it) and plotly's own draws.
+ * each scene is one. A figure that names no ground of its own (template="none") stands on a dark page without a white card, in the
+ * greys of directrix.plot, unless it names a colour that would not be seen there. In JupyterLab it is loaded as a prebuilt extension (package.json beside it) and plotly's own draws.
  */
 (function () {
   "use strict";
   var CLOSE = "600px 0px", FAR = "1800px 0px";
+  var INK = "#7A7A7A", GRID = "#A6A6A6", CLEAR = "rgba(0, 0, 0, 0)";  // those of palette.py
+  var MANY = 1000;  // colours that are looked at
+  var SEEN = 2;  // contrast (WCAG 2) of a line or a letter with the ground below which it is lost
 
   function attend(plot) {
     // Plotly.purge drops listeners and makes a new emitter at the next drawing, so the emitter is what is remembered.
@@ -96,6 +100,66 @@
     look();
   }
 
+  var canvas = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+
+  function rgba(colour) {
+    // Whatever way a browser knows to write a colour; null for what is none.
+    canvas.fillStyle = "#010203";
+    canvas.fillStyle = colour;
+    if (canvas.fillStyle === "#010203") return null;
+    canvas.clearRect(0, 0, 1, 1);
+    canvas.fillRect(0, 0, 1, 1);
+    return canvas.getImageData(0, 0, 1, 1).data;
+  }
+
+  function luminance(pixel) {
+    return [0.2126, 0.7152, 0.0722].reduce(function (sum, share, i) {
+      var part = pixel[i] / 255;
+      return sum + share * (part <= 0.04045 ? part / 12.92 : Math.pow((part + 0.055) / 1.055, 2.4));
+    }, 0);
+  }
+
+  function ground(element) {
+    // The luminance of what is behind an element.
+    for (; element; element = element.parentElement) {
+      var pixel = rgba(getComputedStyle(element).backgroundColor);
+      if (pixel && pixel[3] > 127) return luminance(pixel);
+    }
+    return 1;
+  }
+
+  function colours(value, found) {
+    // All colours of lines, marks and letters that a figure names, those in its texts too.
+    Object.keys(value).forEach(function (key) {
+      var one = value[key];
+      if (/bgcolor$/.test(key)) return;
+      if (/color$/.test(key)) [].concat(one).forEach(function (colour) { if (typeof colour === "string") found.add(colour); });
+      else if (typeof one === "string") one.replace(/color\s*:\s*([^;'">]+)/g, function (_, colour) { found.add(colour.trim()); });
+      if (one && typeof one === "object" && !(Array.isArray(one) && typeof one[0] === "number")) colours(one, found);
+    });
+    return found;
+  }
+
+  function onDark(figure, dark) {
+    // The template with which a figure can stand on a dark page, or null where it has to keep a card of its own.
+    var layout = figure.layout || {}, template = Object(layout.template), base = Object(template.layout);
+    var own = [layout, base].some(function (one) { return one.paper_bgcolor !== undefined || one.plot_bgcolor !== undefined; });
+    if (own || JSON.stringify(Object.keys(layout)).search(/"(geo|map|mapbox|ternary|smith)\d*"/) >= 0) return null;
+    var named = colours([figure.data || [], layout], new Set());
+    if (named.size > MANY || Array.from(named).some(function (colour) {
+      var pixel = rgba(colour);
+      return pixel && pixel[3] > 127 && (luminance(pixel) + 0.05) / (dark + 0.05) < SEEN;
+    })) return null;
+    var axis = { color: INK, gridcolor: GRID, zerolinecolor: GRID, linecolor: INK, tickcolor: INK };
+    var flat = { color: INK, gridcolor: INK, zerolinecolor: GRID, linecolor: INK, tickcolor: INK, gridwidth: 0.5 };
+    return Object.assign({}, template, { layout: Object.assign({}, base, {
+      paper_bgcolor: CLEAR, plot_bgcolor: CLEAR, font: Object.assign({ color: INK }, base.font), xaxis: flat, yaxis: flat,
+      scene: { bgcolor: CLEAR, xaxis: axis, yaxis: axis, zaxis: axis },
+      polar: { bgcolor: CLEAR, angularaxis: flat, radialaxis: flat },
+      modebar: { bgcolor: CLEAR, color: INK }
+    }) });
+  }
+
   function drawInView() {
     var holders = document.querySelectorAll(".directrix-figure");
     if (!holders.length || !window.Plotly) return;
@@ -104,6 +168,8 @@
       var text = holder.querySelector("script").textContent, figure = JSON.parse(text);
       holder._drawn = document.createElement("div");
       holder.appendChild(holder._drawn);
+      var dark = ground(holder), template = dark < 0.18 ? onDark(figure, dark) : null;
+      if (template) figure.layout.template = template;
       figure.config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["sendChartToCloud"] };
       window.Plotly.newPlot(holder._drawn, figure);
     }
@@ -113,6 +179,11 @@
       holder._drawn.remove();
       holder._drawn = null;
     }
+    function again() {
+      // The page has changed its colours: what is drawn stands on the other ground now.
+      holders.forEach(function (holder) { if (holder._drawn) { clear(holder); draw(holder); } });
+    }
+    if (window.matchMedia) window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
     if (!window.IntersectionObserver) { holders.forEach(draw); return; }
     var near = new IntersectionObserver(function (seen) {
       seen.forEach(function (one) { if (one.isIntersecting) draw(one.target); });
