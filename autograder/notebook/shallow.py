@@ -38,6 +38,7 @@ def shallow(html: str, known: Collection[str]) -> str:
 
 def _parts(html: str, known: Collection[str]) -> Iterator[str]:
     is_open: list[str] = []
+    endless: set[str] = set()
     at = 0
     while (start := html.find("<", at)) >= 0:
         yield html[at:start]
@@ -47,9 +48,12 @@ def _parts(html: str, known: Collection[str]) -> Iterator[str]:
             yield shown
             continue
         at, name = tag.end(), tag["name"].lower()
-        if name in _RAW and not tag["end"]:
+        if name in _RAW and name not in endless and not tag["end"]:
             found = re.compile(rf"</{name}[\s/>]", re.IGNORECASE).search(html, at)
-            at = len(html) if found is None else found.start()  # its end is an unknown tag
+            if found is None:
+                endless.add(name)  # its tag is an unknown one then
+            else:
+                at = found.start()
         elif name not in known:
             continue
         elif name in _VOID:
