@@ -59,6 +59,8 @@ _STYLES = {
 }  # fmt: skip
 # Traces and layouts that fetch maps or pictures when they are drawn.
 _FETCHING = re.compile(r"mapbox|geo|choropleth|(scatter|density)map")
+CONTROLS = ("updatemenus", "sliders")
+_CHANGING = re.compile(rf'images|"\w*({_FETCHING.pattern})\w*"')  # in what they do when somebody uses them
 _RAW_TAG = re.compile(r"<(?=[A-Za-z/!?])(?!https?://[^\s<>\"']+>)")
 _FENCE = re.compile(r" {0,3}(`{3,}|~{3,})(.*)")
 _TICKS = re.compile("`+")
@@ -181,14 +183,38 @@ def _figure(value: object) -> Figure | None:
         return None
     if any(_FETCHING.search(str(trace.get("type", ""))) for trace in value["data"]):
         return None
-    layout = {key: part for key, part in layout.items() if key != "images" and not _FETCHING.search(str(key))}
     try:
-        plain = Figure(plain_json({"data": value["data"], "layout": layout}))
+        plain = Figure(plain_json({"data": value["data"], "layout": _layout(layout)}))
         plain.written = json.dumps(plain, sort_keys=True, ensure_ascii=False, allow_nan=False)
         size = len(plain.written) if plain.written.isascii() else len(json.dumps(plain, allow_nan=False))
     except (TypeError, ValueError, RecursionError):
         return None
     return plain if size <= MAX_FIGURE else None
+
+
+def _layout(layout: Mapping[str, Any]) -> dict[str, Any]:
+    """A layout without pictures and maps, those of its template and of its buttons too."""
+    kept = {key: part for key, part in layout.items() if key != "images" and not _FETCHING.search(str(key))}
+    for name in CONTROLS:
+        if name in kept and _CHANGING.search(json.dumps(kept[name])):
+            del kept[name]
+    if isinstance(kept.get("template"), Mapping):
+        kept["template"] = _template(kept["template"])
+    return kept
+
+
+def _template(template: Mapping[str, Any]) -> dict[str, Any]:
+    """A template likewise: a trace without a type would take the one that its template says."""
+    kept = dict(template)
+    if isinstance(kept.get("layout"), Mapping):
+        kept["layout"] = _layout(kept["layout"])
+    if isinstance(kept.get("data"), Mapping):
+        kept["data"] = {kind: list(map(_typeless, items)) for kind, items in kept["data"].items() if isinstance(items, list)}
+    return kept
+
+
+def _typeless(trace: Any) -> Any:
+    return {key: part for key, part in trace.items() if key != "type"} if isinstance(trace, Mapping) else trace
 
 
 def plain_json(value: Any) -> Any:

@@ -127,6 +127,31 @@ def test_figures_are_data_and_layout_and_fetch_nothing():
         assert safe.figure(junk) is None
 
 
+@pytest.mark.parametrize(
+    ("layout", "kept"),
+    [
+        (
+            {"template": {"layout": {"images": [{"name": "i", "source": "http://x"}], "font": 1}}},
+            {"template": {"layout": {"font": 1}}},
+        ),
+        ({"template": {"layout": {"mapbox": {"style": "http://x"}}}}, {"template": {"layout": {}}}),
+        (
+            {"template": {"data": {"scatter": [{"type": "scattermapbox", "mode": "text"}]}}},
+            {"template": {"data": {"scatter": [{"mode": "text"}]}}},
+        ),
+        ({"updatemenus": [{"buttons": [{"method": "relayout", "args": ["images[0].source", "http://x"]}]}]}, {}),
+        ({"sliders": [{"steps": [{"method": "restyle", "args": [{"type": ["scattergeo"]}]}]}]}, {}),
+        ({"sliders": [{"steps": [{"args": [{"visible": True}], "label": "a map"}]}]}, None),
+        ({"template": "none"}, None),
+    ],
+    ids=["template", "its map", "its types", "a button", "a slider", "an honest slider", "a template's name"],
+)
+def test_nor_do_templates_and_buttons_of_figures(layout, kept):
+    """plotly.js draws the named pictures of a template, and takes the type of a trace that has none from there."""
+    clean = safe.figure({"data": [{"y": [1, 2]}], "layout": layout})
+    assert clean["layout"] == (layout if kept is None else kept)
+
+
 def test_too_much_is_cut_or_dropped():
     assert len(safe.text("x" * 10_000_000)) < safe.MAX_TEXT + 100
     assert safe.figure({"data": [{"x": ["y" * 100] * 100_000}], "layout": {}}) is None
