@@ -6,6 +6,7 @@ the notebook that goes into it is made harmless first, and formulas and figures 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -76,15 +77,14 @@ class Harmless(Preprocessor):
 def markdown2html(context: Any, source: str) -> str:
     """Stands in for nbconvert's filter: Markdown through the sanitiser, formulas as MathML."""
     cell = context.get("cell") or {}
-    path = (context.get("resources") or {}).get("metadata", {}).get("path", "")
-    image = images_of(Path(path)) if path else None
+    resources = context.get("resources") or {}
+    path = resources.get("metadata", {}).get("path", "")
+    image = resources.setdefault("directrix_images", images_of(Path(path))) if path else None  # bounded for the whole page
     return to_html(source, attachments=safe.attachments(cell.get("attachments", {})), image=image)
 
 
 def _as_code(source: str) -> str:
-    fence = "`" * 3
-    while fence in source:
-        fence += "`"
+    fence = "`" * max(3, 1 + max(map(len, re.findall("`+", source)), default=0))
     return f"{fence}\n{source}\n{fence}"
 
 

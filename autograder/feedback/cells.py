@@ -19,6 +19,7 @@ from autograder.feedback.markdown import to_html
 from autograder.messages import say
 from autograder.notebook.safe import FIGURE, IMAGES, clean_html, figure, picture
 
+LONGEST_CODE, LONGEST_LINE = 200_000, 2_000  # characters of code that gets colours
 LONGEST_KEPT = 5_000  # letters: a thousand cells that are longer would be much to hold
 Admit = Callable[[Any], Mapping[str, Any] | None]
 
@@ -89,6 +90,8 @@ def _text(value: Any) -> Any:
 
 def code_html(source: str) -> str:
     """Python with its colours; what is short is kept, for an instructor's cells come again with every learner."""
+    if len(source) > LONGEST_CODE or max(map(len, source.split("\n"))) > LONGEST_LINE:  # the lexer may take the square of that
+        return f'<div class="highlight"><pre>{Markup.escape(source)}</pre></div>'
     return _coloured(source) if len(source) <= LONGEST_KEPT else _coloured.__wrapped__(source)
 
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import bisect
+import functools
 import html
 import re
+from collections import Counter
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -18,7 +21,9 @@ FindImage = Callable[[str], str | None]
 # Formulas are put in after sanitising, in the place of such a token; the letters stand in no text that comes in.
 OPEN, CLOSE = "\ue000", "\ue001"
 _TOKEN = re.compile(f"{OPEN}(\\d+){CLOSE}")
-_ENVIRONMENT = r"^ {0,3}(?P<environment>\\begin\{(?P<called>[a-z]+\*?)\}[\s\S]+?\\end\{(?P=called)\})[ \t]*$"
+_ENVIRONMENT = r"^ {0,3}(?P<environment>\\begin\{(?P<called>[a-z]+\*?)\})"
+_END = re.compile(r"\\end\{([a-z]+\*?)\}(?=[ \t]*$)", re.MULTILINE)
+USES = 3  # of one attached picture in a cell: each is written out
 
 
 def to_html(source: str, *, attachments: Mapping[str, Mapping[str, str]] | None = None, image: FindImage | None = None) -> str:
@@ -47,6 +52,7 @@ class _Renderer(mistune.HTMLRenderer):
     def __init__(self, formulas: list[str], attachments: Mapping[str, Mapping[str, str]], image: FindImage | None) -> None:
         super().__init__(escape=False)
         self.formulas, self.attachments, self.find = formulas, attachments, image
+        self.uses: Counter[str] = Counter()
 
     def formula(self, text: str, *, block: bool) -> str:
         self.formulas.append(mathml(html.unescape(text), block=block))
@@ -63,7 +69,8 @@ class _Renderer(mistune.HTMLRenderer):
 
     def _source(self, url: str) -> str | None:
         if url.startswith("attachment:"):
-            kinds = self.attachments.get(url.removeprefix("attachment:"), {})
+            self.uses[url] += 1
+            kinds = self.attachments.get(url.removeprefix("attachment:"), {}) if self.uses[url] <= USES else {}
             url = next((f"data:{mime};base64,{data}" for mime, data in kinds.items()), "")
         elif not url.startswith("data:"):
             url = (self.find(url) if self.find is not None else None) or ""
@@ -71,8 +78,23 @@ class _Renderer(mistune.HTMLRenderer):
 
 
 def _environments(md: mistune.Markdown) -> None:
-    def parse(block: Any, found: re.Match[str], state: Any) -> int:
-        state.append_token({"type": "block_math", "raw": found["environment"]})
-        return found.end() + 1
+    def parse(block: Any, found: re.Match[str], state: Any) -> int | None:
+        ends = _ends(state.src).get(found["called"], [])
+        after = bisect.bisect(ends, found.end())
+        if after == len(ends):
+            return None
+        begin, end = found.start("environment"), ends[after]
+        state.append_token({"type": "block_math", "raw": state.src[begin:end]})
+        line: int = state.src.find("\n", end)
+        return len(state.src) if line < 0 else line + 1
 
     md.block.register("latex", _ENVIRONMENT, parse, before="list")
+
+
+@functools.lru_cache(maxsize=2)
+def _ends(source: str) -> dict[str, list[int]]:
+    """Where environments end, by name; found once, not for each that begins and does not end."""
+    found: dict[str, list[int]] = {}
+    for end in _END.finditer(source):
+        found.setdefault(end[1], []).append(end.end())
+    return found

@@ -22,7 +22,7 @@ from autograder.notebook.submission import parse, read_file
 
 # nbgrader compares the first to know whether its feedback is up to date; to release feedback it needs the second too.
 BESIDE = ("timestamp.txt", "submission_secret.txt")
-MAX_IMAGE = 4_000_000
+MAX_IMAGE, MAX_IMAGES = 4_000_000, 32_000_000  # bytes of one, of all on a page
 BATCH = 50  # students whose marks are read at a time
 
 
@@ -117,9 +117,14 @@ def course_hidden(course: Course) -> Hidden:
 
 
 def images_of(folder: Path) -> FindImage:
-    """Finds pictures below a folder: regular files of a kind that cannot hold a script, not through links."""
+    """Finds pictures below a folder: regular files of a kind that cannot hold a script, not through links.
+
+    Each is written out where it is shown, so they may have so many bytes in all.
+    """
+    left = MAX_IMAGES
 
     def find(url: str) -> str | None:
+        nonlocal left
         parts = PurePosixPath(unquote(url.partition("?")[0].partition("#")[0])).parts
         if not parts or ".." in parts or parts[0] == "/" or any(":" in part for part in parts):
             return None
@@ -130,10 +135,11 @@ def images_of(folder: Path) -> FindImage:
             if place.is_symlink():
                 return None
         try:
-            data = read_file(place / parts[-1], MAX_IMAGE)
+            data = read_file(place / parts[-1], min(MAX_IMAGE, left)) if mime in IMAGES else b""
         except (SubmissionError, OSError, ValueError):
             return None
-        return f"data:{mime};base64,{base64.b64encode(data).decode('ascii')}" if mime in IMAGES else None
+        left -= len(data)
+        return f"data:{mime};base64,{base64.b64encode(data).decode('ascii')}" if data else None
 
     return find
 

@@ -126,3 +126,11 @@ def test_without_our_line_the_same_notebook_runs_its_scripts(tmp_path, chromium)
             assert page.evaluate("window.hacked") is not None
         finally:
             browser.close()
+
+
+def test_a_raw_cell_of_backticks_is_fenced_at_once():
+    from autograder.bridge.pages import _as_code
+
+    assert _as_code("a ` b") == "```\na ` b\n```"
+    ticks = "`" * 1_000_000
+    assert _as_code(f"x\n{ticks}") == f"{ticks}`\nx\n{ticks}\n{ticks}`"

@@ -1,11 +1,15 @@
 """Feedback pages: formulas, hidden tests, hostile content, and what a browser makes of them."""
 
+import base64
+import importlib
 import json
+import time
 
 import pytest
 
 from autograder import feedback, fleet
 from autograder.errors import CourseError
+from autograder.feedback.cells import code_html
 from autograder.feedback.formula import mathml
 from autograder.feedback.hide import Hidden, strip_ansi
 from autograder.feedback.markdown import to_html
@@ -71,6 +75,33 @@ def test_pictures_come_from_the_folder_or_not_at_all(tmp_path):
         assert find(name) is None
     assert "data:image/png" in to_html("![p](a%20b.png)", image=find)
     assert "[p]" in to_html("![p](http://x/a.png)", image=find)
+
+
+def test_pictures_are_not_written_out_a_hundred_thousand_times(tmp_path, monkeypatch):
+    write = importlib.import_module("autograder.feedback.write")  # the package has a function of that name
+    png = b"\x89PNG\r\n\x1a\n" + bytes(992)
+    (tmp_path / "a.png").write_bytes(png)
+    monkeypatch.setattr(write, "MAX_IMAGES", 5000)
+    assert to_html("![](a.png)" * 100, image=write.images_of(tmp_path)).count("<img") == 5
+    pasted = {"a.png": {"image/png": base64.b64encode(png).decode()}}
+    assert to_html("![](attachment:a.png)" * 100, attachments=pasted).count("<img") == 3
+
+
+def test_environments_that_never_end_are_looked_for_once():
+    """Each of them searched all that follows: a minute for the text of a cell that may have a million characters."""
+    began = time.process_time()
+    assert "<math" not in to_html("\\begin{align}\n" * 14_000 + "\\end{align} x")
+    assert time.process_time() - began < 5.0
+    several = to_html("a\n\\begin{align}\nx\n\\end{align} \nb\n\n\\begin{cases}\n\\begin{align}\ny\n\\end{align}")
+    assert several.count("<math") == 2
+    assert "<p>b</p>" in several
+
+
+def test_code_that_no_person_wrote_has_no_colours():
+    """The lexer takes the square of the length of such a line."""
+    assert code_html("'\\N{" * 100_000).startswith('<div class="highlight"><pre>&#39;\\N{')
+    assert "<span" in code_html("x = 1\n" * 1000)
+    assert "<span" not in code_html("x = 1\n" * 50_000)
 
 
 def test_hidden_tests_and_mark_schemes_are_taken_out():
