@@ -173,8 +173,11 @@ def _inner(part: Unpacked, course: Course) -> None:
         data = part.files.pop(name)
         try:
             bounds = course.bounds
-            left = Bounds(bounds.notebook, bounds.file, bounds.total - sum(map(len, part.files.values())), bounds.entries)
-            inside = archive.read(data, ignore=course.ignore, bounds=left)
+            total = bounds.total - sum(map(len, part.files.values())) - part.wasted
+            inside = archive.read(
+                data, ignore=course.ignore, bounds=Bounds(bounds.notebook, bounds.file, total, bounds.entries)
+            )
+            part.wasted += inside.wasted
         except SubmissionError as error:
             part.refused[name] = str(error)
             continue

@@ -16,7 +16,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-LONGEST = 40_000  # characters of a cell that is read
+LONGEST, MOST = 40_000, 400_000  # characters of a cell that are read, of all cells
 SKIPPED = {tokenize.COMMENT, tokenize.NL, tokenize.STRING}
 
 
@@ -27,9 +27,19 @@ def in_text(sources: Iterable[str], name: str, wanted: Collection[str]) -> tuple
     ('basis',)
     """
     used: dict[str, set[str]] = {}
-    for source in sources:
-        used |= _definitions(source[:LONGEST])  # a later definition takes the place of an earlier one
+    for source in _first(sources):
+        used |= _definitions(source)  # a later definition takes the place of an earlier one
     return _reached(name, lambda known: used.get(known, set()), set(wanted) - {name})
+
+
+def _first(sources: Iterable[str]) -> Iterator[str]:
+    """As much of each as is read, while there is room for all of that."""
+    left = MOST
+    for source in sources:
+        left -= min(len(source), LONGEST)
+        if left < 0:
+            return
+        yield source[:LONGEST]
 
 
 def in_function(function: Callable[..., Any], wanted: Collection[str]) -> tuple[str, ...]:

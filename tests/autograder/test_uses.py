@@ -91,3 +91,12 @@ def test_globals_of_a_function_at_hand():
     assert uses.in_function(names["local"], WANTED) == ()
     assert uses.in_function(names["vector"], WANTED) == ("knots",)
     assert uses.in_function(len, WANTED) == ()
+
+
+def test_of_very_many_cells_the_first_are_read():
+    """Taking 32 MB of text apart takes a minute, and it is asked after each exercise that is not right."""
+    filled = "x = 1\n" * 6600
+    cells = ["def patch(u):\n    return basis(u)", *(f"# {number}\n{filled}" for number in range(200))]
+    uses._definitions.cache_clear()
+    assert uses.in_text(cells, "patch", WANTED) == ("basis",)
+    assert uses._definitions.cache_info().misses <= 11

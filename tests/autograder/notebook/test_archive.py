@@ -195,3 +195,22 @@ def test_whatever_is_changed_in_an_archive_it_is_read_within_bounds_or_refused(d
         return
     assert sum(map(len, found.files.values())) <= SMALL.total
     assert all(".." not in path.split("/") and path.isprintable() and path[0] != "/" for path in found.files)
+
+
+def damaged(count, size):
+    """An archive of so many members of so many zeros, each with a wrong checksum, which shows when all of it is unpacked."""
+    raw = bytearray(zipped(*((f"{number}.bin", bytes(size)) for number in range(count)), good=False))
+    at = raw.find(b"PK\x01\x02")
+    while at >= 0:
+        raw[at + 16 : at + 20] = b"none"
+        at = raw.find(b"PK\x01\x02", at + 4)
+    return bytes(raw)
+
+
+def test_what_is_unpacked_in_vain_is_counted_too():
+    """Two thousand such members fit into a submission: two minutes of unpacking, for nothing."""
+    found = archive.read(damaged(5, 60_000), bounds=SMALL)
+    assert found.files == {}
+    assert ["damaged" in reason for reason in found.refused.values()] == [True, True, False, False, False]
+    assert "more than the 30000 bytes" in found.refused["4.bin"]
+    assert found.wasted == 120_000
