@@ -22,7 +22,9 @@ from autograder.catalogue import shipped
 def striped(*panels, height=400, eye=(1.2, -1.9, 1.1), stripes=32):
     """Two scenes of (name, forms): every form is painted with the stripes that a row of lamps would leave on it."""
     t = np.linspace(0, 1, 33)
-    dark_and_light = [[at, ("#5A6B7D", "#EEF1F4")[n % 2]] for n in range(stripes) for at in (n / stripes, (n + 1) / stripes)]
+    dark_and_light = [
+        [at, ("#5A6B7D", palette.PLAIN)[n % 2]] for n in range(stripes) for at in (n / stripes, (n + 1) / stripes)
+    ]
     figure = go.Figure()
     for number, (name, forms) in enumerate(panels):
         scene = "scene" if number == 0 else f"scene{number + 1}"
@@ -42,9 +44,9 @@ def striped(*panels, height=400, eye=(1.2, -1.9, 1.1), stripes=32):
     return figure.update_traces(showscale=False, hoverinfo="skip", lighting=palette.FLAT)
 
 
-def beside(form, far):
-    """The same form, moved far along x."""
-    return form.moved(dx.Transform.translate((far, 0, 0)))
+def beside(form, far, behind=0.0):
+    """The same form, moved along x and y."""
+    return form.moved(dx.Transform.translate((far, behind, 0)))
 
 
 ends = np.array([0.0, 1.0])
@@ -278,9 +280,10 @@ with once_written():
     holds("the same as the library's", coons(u, w, **frame), sheet(u, w))
 
 # %%
-parts = [dx.Ruled(c0, c1), beside(dx.Ruled(d0, d1).swap(), 10), beside(hung, 20), beside(sheet, 30)]
-figure = plot.view(parts[0], also=parts[1:], title="ruled along w · ruled along u · bilinear · first + second − third", lines=6)
-figure.update_layout(scene_camera_eye={"x": 0.0, "y": -0.6, "z": 0.4}, height=300)
+parts = [beside(dx.Ruled(d0, d1).swap(), 9, 9), beside(hung, 0, 0), beside(sheet, 9, 0)]
+words = "back: ruled along w, ruled along u<br>front: bilinear, and first + second − third"
+figure = plot.view(beside(dx.Ruled(c0, c1), 0, 9), also=parts, title=words, lines=6)
+figure.update_layout(scene_camera_eye={"x": 0.0, "y": -1.2, "z": 1.0}, margin_t=64)
 figure.update_scenes(xaxis_visible=False, yaxis_visible=False, zaxis_visible=False)
 
 # %% [markdown]

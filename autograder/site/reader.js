@@ -16,20 +16,54 @@
     });
   });
 
-  // The slider and the button that plotly draws cannot be reached by keyboard: a walk gets real ones in their place. They are
-  // taken out of the figure before it is drawn, which it is only once the page stands.
-  var ROOM = 56; // pixels that they took
-  function walk(holder) {
-    var script = holder.querySelector("script");
-    if (script.textContent.indexOf('"sliders":[{') < 0) return;
-    var figure = JSON.parse(script.textContent), slider = figure.layout.sliders[0], at = 0, timer = null, busy = false;
-    delete figure.layout.sliders;
-    delete figure.layout.updatemenus;
-    figure.layout.height = (figure.layout.height || 450) - ROOM;
-    figure.layout.margin = Object.assign({}, figure.layout.margin, { b: Math.max((figure.layout.margin || {}).b - ROOM || 0, 0) });
-    holder.style.minHeight = figure.layout.height + "px";
+  // What is changed in a figure is changed in its data, before it is drawn: that happens only once the page stands.
+  var room = document.querySelector("main > .cell").clientWidth; // of a picture; one in a closed answer has none yet
+  function prepare(holder) {
+    var script = holder.querySelector("script"), narrow = window.matchMedia("(max-width: 30rem)").matches;
+    if (!narrow && script.textContent.indexOf('"sliders":[{') < 0) return;
+    var figure = JSON.parse(script.textContent), slider = (figure.layout.sliders || [])[0];
+    if (slider) unslide(figure.layout);
+    if (narrow && figure.layout.scene) { fit(figure, room - 20); holder.classList.remove("wide"); }
+    if (slider) walk(holder, slider);
+    holder.style.minHeight = (figure.layout.height || 450) + "px";
     script.textContent = JSON.stringify(figure).replace(/</g, "\\u003c");
+  }
 
+  // On a phone two panels stand one above the other, since a reader compares them; a single scene is as high as it is wide.
+  function fit(figure, room) {
+    var layout = figure.layout, margin = layout.margin = Object.assign({ t: 0, b: 0 }, layout.margin), panel = 0.78 * room, gap = 34;
+    var second = layout.scene2 ? layout.scene2.domain.x : layout.xaxis ? layout.xaxis.domain : null;
+    if (!second) { layout.height = Math.min(layout.height || 450, panel + margin.t + margin.b); return; }
+    var bar = layout.scene2 && second[1] < 0.95, buttons = (layout.updatemenus || []).length ? 34 : 0;
+    var whole = 2 * panel + gap, part = panel / whole, right = bar ? 0.86 : 1;
+    var above = { x: [0, right], y: [1 - part, 1] }, below = { x: [0, right], y: [0, part] };
+    (layout.annotations || []).forEach(function (note) {
+      if (note.y < 0) { note.x = 0.5; note.xanchor = "center"; note.yshift = -buttons; return; } // the line of words at the bottom
+      var to = note.x < second[0] ? above : below;
+      note.x = right / 2;
+      note.y = to.y[0] + note.y * part;
+    });
+    layout.scene.domain = above;
+    if (layout.scene2) layout.scene2.domain = below;
+    else { layout.xaxis.domain = [0.15, 0.85]; layout.yaxis.domain = [0.24 * part, part]; }
+    if (bar) figure.data.forEach(function (trace) {
+      if (trace.colorbar) Object.assign(trace.colorbar, { x: right + 0.01, y: part / 2, len: 0.8 * part });
+    });
+    margin.b += buttons;
+    layout.height = whole + margin.t + margin.b;
+  }
+
+  // The slider and the button that plotly draws cannot be reached by keyboard: a walk gets real ones in their place.
+  function unslide(layout) {
+    var room = 56, margin = layout.margin || {}; // pixels that they took
+    delete layout.sliders;
+    delete layout.updatemenus;
+    layout.height = (layout.height || 450) - room;
+    layout.margin = Object.assign({}, margin, { b: Math.max((margin.b || 0) - room, 0) });
+  }
+
+  function walk(holder, slider) {
+    var at = 0, timer = null, busy = false;
     var controls = document.getElementById("walk").content.firstElementChild.cloneNode(true);
     var play = controls.querySelector("button"), input = controls.querySelector("input"), place = controls.querySelector("output");
     var words = [play.textContent, play.dataset.pause], last = slider.steps.length - 1;
@@ -59,10 +93,12 @@
     });
     input.addEventListener("input", function () { stop(); move(Number(input.value)); });
     // A figure far away is taken out of the page; when it is drawn again its marker stands at the start.
-    new MutationObserver(function () { if (!holder.querySelector(".js-plotly-plot")) { stop(); move(0); } }).observe(holder, { childList: true });
+    new MutationObserver(function () {
+      if (!holder.querySelector(".js-plotly-plot")) { stop(); busy = false; move(0); }
+    }).observe(holder, { childList: true });
     move(0);
   }
-  all(".directrix-figure").forEach(walk);
+  all(".directrix-figure").forEach(prepare);
 
   var wide = window.matchMedia("(min-width: 75rem)"), contents = document.querySelector("nav.places details");
   function place() { contents.open = wide.matches; }

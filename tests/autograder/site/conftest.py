@@ -32,7 +32,8 @@ points = None  # "one", "two" or <three>
 print("counting <b>")
 reveal(points, "two & no more")
 surface = {"type": "surface", "z": [[0, 1], [1, 0]], "showscale": False}
-layout = {"height": 300, "scene": {}, "meta": {"alt": "A saddle."}}
+left, right = {"domain": {"x": [0, 0.455], "y": [0, 1]}}, {"domain": {"x": [0.465, 0.92], "y": [0, 1]}}
+layout = {"height": 300, "scene": left, "scene2": right, "meta": {"alt": "A saddle."}}
 kind = "application/vnd.plotly.v1+json"
 display({kind: {"data": [surface], "layout": layout, "frames": [{"name": "f", "data": []}]}}, raw=True)
 

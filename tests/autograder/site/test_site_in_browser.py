@@ -63,6 +63,18 @@ def test_a_reader_guesses_by_keyboard_and_sees_the_answer_and_its_figure(opened,
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize(("width", "above"), [(390, True), (900, False)])
+def test_two_scenes_stand_one_above_the_other_on_a_phone(opened, width, above):
+    """Where they would stand side by side, half of a comparison were out of sight; elsewhere they stay side by side."""
+    page = opened("01-lines.html", viewport={"width": width, "height": 700})
+    layout = page.evaluate("JSON.parse(document.querySelector('.directrix-figure script').textContent).layout")
+    left, right = layout["scene"]["domain"], layout["scene2"]["domain"]
+    assert (left["y"][0] > right["y"][1]) == (left["x"] == right["x"]) == above
+    page.click("#unfold")
+    assert page.evaluate("[...document.querySelectorAll('.outputs')].some(o => o.scrollWidth > o.clientWidth)") is False
+
+
+@pytest.mark.browser
 def test_a_walk_is_walked_by_keyboard(opened):
     """A range and a button that say where the marker is, in place of plotly's slider; the figure follows."""
     page = opened("01-lines.html", viewport={"width": 900, "height": 700})
