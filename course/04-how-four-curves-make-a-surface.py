@@ -283,7 +283,7 @@ with once_written():
 parts = [beside(dx.Ruled(d0, d1).swap(), 9, 9), beside(hung, 0, 0), beside(sheet, 9, 0)]
 words = "back: ruled along w, ruled along u<br>front: bilinear, and first + second − third"
 figure = plot.view(beside(dx.Ruled(c0, c1), 0, 9), also=parts, title=words, lines=6)
-figure.update_layout(scene_camera_eye={"x": 0.0, "y": -1.2, "z": 1.0}, margin_t=64)
+figure.update_layout(scene_camera_eye={"x": 0.0, "y": -1.2, "z": 1.0}, margin_t=64, title_y=0.93)
 figure.update_scenes(xaxis_visible=False, yaxis_visible=False, zaxis_visible=False)
 
 # %% [markdown]

@@ -80,15 +80,18 @@ def test_chapter_shows_a_walk_and_a_wrong_picture(name):
 
 @pytest.mark.parametrize("name", CHAPTERS)
 def test_chapter_runs_with_its_solutions_and_every_claim_holds(name, run):
-    """No error, no claim that fails, and every check gives full points."""
+    """No error, no claim that fails, every check gives full points, and a browser can draw all that was drawn."""
     nb = build_chapter(CHAPTERS[name], solutions=True)
     asked = len(typed(nb))
-    printed = []
+    printed, drawn = [], 0
     for cell in run(nb).cells:
         for output in cell.get("outputs", []):
             assert output.output_type != "error", f"{cell.source}\n{output.evalue}"
             if output.output_type == "stream":
                 printed += [(output.name, line) for line in output.text.splitlines()]
+            figure = output.get("data", {}).get("application/vnd.plotly.v1+json", {"layout": {}})
+            drawn += sum(key.startswith("scene") for key in figure["layout"])
+    assert 0 < drawn <= MOST_SCENES
     assert [line for stream, line in printed if stream == "stderr"] == []
     assert not [line for _, line in printed if line.startswith("NO ")]
     assert sum(line.startswith("You said typed") for _, line in printed) == asked
