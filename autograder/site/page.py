@@ -28,6 +28,8 @@ SHEETS = (HERE.parent / "feedback" / "page.css", HERE / "reader.css")
 _QUESTION = re.compile(r"^\*\*(.+?)\*\*[ \t]*$", re.DOTALL | re.MULTILINE)
 _LINK = re.compile(r"\]\(([^)\s]+?\.ipynb)((?:#[^)\s]*)?)\)")
 _SECTION = re.compile(r"<h2>(.*?)</h2>", re.DOTALL)
+# A browser breaks the line between a formula and the full stop after it.
+_TIED = re.compile(r"(<math\b(?![^>]*block)[^>]*>(?:(?!<math\b).)*?</math>[.,;:!?)]+)", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -147,7 +149,7 @@ def _cell(
     if cell.kind == "markdown":
         source = here.about if number == 0 else cell.source
         turned = links.turned(Cell("markdown", source, cell.path, cell.line))
-        return shown | {"body": Markup(to_html(turned, image=image))}
+        return shown | {"body": Markup(_TIED.sub(r'<span class="tied">\1</span>', to_html(turned, image=image)))}
     found = GUESS.match(cell.source)
     if found and found[1] in answered:
         rest = cell.source[found.end() :].strip("\n")

@@ -63,6 +63,16 @@ def test_the_answer_waits_until_it_is_opened(built):
     assert "points = None" not in re.sub(r"<[^>]+>", "", html)
 
 
+def test_a_full_stop_stays_with_its_formula(tmp_path):
+    """No line begins with the full stop; a formula on a line of its own is left alone."""
+    text = TITLE + "# %% [markdown]\n# Take $x$, or ($y^2$). Not $z$ but\n#\n# $$w$$\n"
+    (tmp_path / "01-x.py").write_text(text)
+    sites.build(tmp_path / "site", tmp_path)
+    html = (tmp_path / "site" / "01-x.html").read_text("utf-8")
+    tied = re.findall(r'<span class="tied">(.*?)</span>', html)
+    assert [re.sub(r"<annotation.*?</annotation>|<[^>]+>", "", one) for one in tied] == ["x,", "y2)."]
+
+
 def test_a_name_that_nobody_answers_is_code(built):
     assert '<span class="n">nothing</span>' in page(built, "02-planes.html")
     assert "<form" not in page(built, "02-planes.html")
