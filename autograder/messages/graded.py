@@ -13,6 +13,9 @@ GRADED: dict[str, str] = {
     "graded.could_not_judge": "This exercise could not be judged.",
     "graded.no_text": "The test returned something without a text; please look at it.",
     "graded.no_number": "The test returned {shown}, which is no number: full points, as in nbgrader.",
+    "graded.no_points": "The test returned {shown}; with the solution it returns a number of points: 0 points for now; please "
+    "look at it.",
+    "graded.nothing": "nothing",
     "graded.nan": "The test returned not a number: 0 points for now; please look at it.",
     "graded.outside": "The test returned {value}, outside 0 to {points}: 0 points for now; please look at it.",
     "graded.no_response": "No response.",

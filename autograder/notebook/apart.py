@@ -25,14 +25,14 @@ from pathlib import Path
 from typing import Any
 
 from autograder.errors import CourseError
-from autograder.notebook.marks import scored
+from autograder.notebook.marks import returns_number, scored
 from autograder.notebook.master import Master, MasterCell, checksum
 from autograder.notebook.reach import reaching
 
 MODES = ("calibrated", "apart", "shared")
 Pair = Callable[[], tuple[Any, Any]]
 ROUNDS = 6  # of trying; what still changes its mark then is shared
-VERSION = 3  # of what is remembered and of what can cross: raise it when either changes
+VERSION = 4  # of what is remembered and of what can cross: raise it when either changes
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,7 @@ class Script:
     names : what the solution cells bind and the others mention
     apart : grade ids of test cells that run apart
     shared : the other ordinary test cells, with the reason
+    numbers : grade ids of ordinary test cells that return a number of points with the solution
     engine : "ipython", or "jupyter": what the notebook shows comes from a real kernel (``autograder.notebook.kernel``)
     """
 
@@ -62,6 +63,7 @@ class Script:
     names: tuple[str, ...] = ()
     apart: frozenset[str] = frozenset()
     shared: Mapping[str, str] = field(default_factory=dict)
+    numbers: frozenset[str] = frozenset()
     engine: str = "ipython"
 
 
@@ -164,7 +166,7 @@ def prepare(
     script = _remembered(memory, key)
     if script is None:
         trial = _Trial(steps, ordinary, open_session, open_pair)
-        script = dataclasses.replace(trial.settle(), steps=steps)
+        script = dataclasses.replace(trial.settle(), steps=steps, numbers=frozenset(trial.numbers))
         _remember(memory, key, script)
     return _insisted(dataclasses.replace(script, steps=steps, names=_names(steps, script.shared)), mode)
 
@@ -205,6 +207,7 @@ class _Trial:
     ordinary: Mapping[str, MasterCell]
     open_session: Callable[[], contextlib.AbstractContextManager[Any]]
     open_pair: Pair
+    numbers: set[str] = field(default_factory=set)  # that return one
 
     def settle(self) -> Script:
         """Which cells run apart."""
@@ -255,13 +258,14 @@ class _Trial:
         return reaching(tests, others, [_parsed(step.source) for step in self.steps if step.solution])
 
     def _together(self) -> dict[str, tuple[float | None, str]]:
+        marks = {}
         with self.open_session() as session:
-            return {
-                step.name: self._mark(step, result)
-                for step in self.steps
-                for result in [session.run_cell(step.source)]
-                if step.test
-            }
+            for step in self.steps:
+                result = session.run_cell(step.source)
+                if step.test:
+                    marks[step.name] = self._mark(step, result)
+                    self.numbers |= {step.name} if returns_number(result.outputs) else set()
+        return marks
 
     def _apart(self, script: Script) -> dict[str, tuple[float | None, str]]:
         learner, second = self.open_pair()
@@ -364,7 +368,8 @@ def _remembered(memory: Path | None, key: str) -> Script | None:
         kept = json.loads(memory.read_text("utf-8"))
         if kept["key"] != key:
             return None
-        return Script(apart=frozenset(map(str, kept["apart"])), shared={str(k): str(v) for k, v in kept["shared"].items()})
+        shared = {str(name): str(why) for name, why in kept["shared"].items()}
+        return Script(apart=frozenset(map(str, kept["apart"])), shared=shared, numbers=frozenset(map(str, kept["numbers"])))
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None
 
@@ -372,7 +377,8 @@ def _remembered(memory: Path | None, key: str) -> Script | None:
 def _remember(memory: Path | None, key: str, script: Script) -> None:
     if memory is None:
         return
-    text = json.dumps({"key": key, "apart": sorted(script.apart), "shared": dict(script.shared)}, indent=1)
+    kept = {"key": key, "apart": sorted(script.apart), "shared": dict(script.shared), "numbers": sorted(script.numbers)}
+    text = json.dumps(kept, indent=1)
     with contextlib.suppress(OSError):  # it is tried again next time
         memory.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         fresh = memory.with_name(memory.name + ".new")

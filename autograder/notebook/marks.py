@@ -41,7 +41,7 @@ class Mark:
     note: str = ""
 
 
-def mark(cell: Mapping[str, Any], master: MasterCell, run: CellRun | None) -> Mark:
+def mark(cell: Mapping[str, Any], master: MasterCell, run: CellRun | None, *, number: bool = False) -> Mark:
     """The mark of a graded cell as it lies in the rebuilt notebook.
 
     Parameters
@@ -52,6 +52,8 @@ def mark(cell: Mapping[str, Any], master: MasterCell, run: CellRun | None) -> Ma
         The instructor's copy of it.
     run : CellRun or None
         How it ran; None if nothing was executed.
+    number : bool
+        Whether an ordinary test cell returns a number of points with the instructor's solution.
     """
     points = float(master.points or 0.0)
     if master.solution:
@@ -64,7 +66,7 @@ def mark(cell: Mapping[str, Any], master: MasterCell, run: CellRun | None) -> Ma
         return judged(run, points)
     if run is None or run.status not in RAN:
         return Mark(None, look=True, note=(run.note if run else "") or say("graded.not_executed"))
-    return scored(cell["outputs"], points)
+    return scored(cell["outputs"], points, number=number)
 
 
 def judged(run: CellRun | None, points: float) -> Mark:
@@ -76,35 +78,52 @@ def judged(run: CellRun | None, points: float) -> Mark:
     return Mark(run.verdict.points(points))
 
 
-def scored(outputs: Sequence[Mapping[str, Any]], points: float) -> Mark:
-    """The mark of an ordinary test cell from its outputs; the first that decides, decides."""
+def scored(outputs: Sequence[Mapping[str, Any]], points: float, *, number: bool = False) -> Mark:
+    """The mark of an ordinary test cell from its outputs; the first that decides, decides.
+
+    What returns a ``number`` of points with the solution has to return one.
+    """
     for output in outputs:
         kind = output["output_type"]
         if kind == "error" or (kind == "stream" and output["name"] == "stderr"):
             return Mark(0.0)
         if kind == "execute_result":
-            return partial(output["data"].get("text/plain"), points)
-    return Mark(points)
+            return partial(output["data"].get("text/plain"), points, number=number)
+    return Mark(points) if not number else Mark(0.0, look=True, note=say("graded.no_points", shown=say("graded.nothing")))
 
 
-def partial(shown: str | None, points: float) -> Mark:
+def returns_number(outputs: Sequence[Mapping[str, Any]]) -> bool:
+    """Whether the cell returned a plain number."""
+    shown = [output["data"].get("text/plain") for output in outputs if output["output_type"] == "execute_result"]
+    return any(isinstance(text, str) and _number(text) is not None for text in shown)
+
+
+def partial(shown: str | None, points: float, *, number: bool = False) -> Mark:
     """The mark for the value that a test cell returned, from its text.
 
     A plain number in [0, points] counts, ``np.float64(0.5)`` too (nbgrader: full points). Negative, NaN or more than the
     points: 0 and a manual look (nbgrader: full points, full points, the submission fails). Anything else keeps nbgrader's full
-    points, with a warning.
+    points, with a warning; but where a ``number`` is due, an array or a text is what a wrong answer made of it: 0 and a look.
     """
     if shown is None:
         return Mark(None, look=True, note=say("graded.no_text"))
-    inner = _NUMPY.fullmatch(shown.strip())
-    try:
-        value = float((inner[1] or inner[2]) if inner else shown)
-    except ValueError:
+    value = _number(shown)
+    if value is None and number:
+        return Mark(0.0, look=True, note=say("graded.no_points", shown=_short(shown)))
+    if value is None:
         return Mark(points, note=say("graded.no_number", shown=_short(shown)))
     if 0 <= value <= points + ROUNDING * max(points, 1.0):
         return Mark(min(abs(value), points))
     outside = {"value": f"{value:g}", "points": f"{points:g}"}
     return Mark(0.0, look=True, note=say("graded.nan") if math.isnan(value) else say("graded.outside", **outside))
+
+
+def _number(shown: str) -> float | None:
+    inner = _NUMPY.fullmatch(shown.strip())
+    try:
+        return float((inner[1] or inner[2]) if inner else shown)
+    except ValueError:
+        return None
 
 
 def _short(shown: str) -> str:
@@ -119,6 +138,7 @@ DIFFERENCES = (
     ("c.Execute.timeout", "seconds by the clock", "seconds of CPU time; by the clock three times that and ten"),
     ("np.float64(0.5) returned by a test cell", "full points", "0.5 points"),
     ("a negative number or NaN returned by a test cell", "full points", "0 points and a manual look"),
+    ("an array, or nothing, returned where it is a number with the solution in source/", "full points", "0 points and a look"),
     ("a number above the points", "the submission is dropped", "0 points and a manual look (rounding aside)"),
     ("a tag such as skip-execution on a graded cell of the submission", "not run, full points", "ignored: it is run"),
     ("a graded cell that is there twice", "the run for the whole class stops", "the last counts, with a manual look"),

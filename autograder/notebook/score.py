@@ -17,7 +17,8 @@ def marks(built: Rebuilt, ran: Ran | None) -> dict[str, Mark]:
     found: dict[str, Mark] = {}
     for number, (cell, mine) in enumerate(zip(built.cells, built.masters, strict=True)):
         if mine is not None and mine.grade:
-            given = mark(cell, mine, ran.cells[number] if ran is not None else None)
+            how, numbers = (ran.cells[number], ran.numbers) if ran is not None else (None, frozenset[str]())
+            given = mark(cell, mine, how, number=mine.name in numbers)
             found[mine.name] = _with_look(given, reasons.get(mine.name))
     return found
 

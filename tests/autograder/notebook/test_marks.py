@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from autograder.notebook.marks import CellRun, Mark, mark, partial, scored
+from autograder.notebook.marks import CellRun, Mark, mark, partial, returns_number, scored
 from autograder.notebook.master import MasterCell, checksum
 from autograder.result import Verdict
 
@@ -135,3 +135,19 @@ def test_every_difference_is_told_to_instructors():
     page = (Path(__file__).resolve().parents[3] / "docs" / "nbgrader.md").read_text("utf-8").split("\n## ")[0]
     rows = [tuple(part.strip() for part in line.strip("|").split("|")) for line in page.splitlines() if line.startswith("| ")]
     assert tuple(rows[1:]) == DIFFERENCES
+
+
+@pytest.mark.parametrize("shown", ["array([0.])", "'passed'", "(0+1j)", "[1.0]", None])
+def test_where_a_number_of_points_is_due_nothing_else_has_points(shown):
+    """A wrong answer that is an array makes one of ``1.0 * (f(2) == 4)``, and full points of it under nbgrader."""
+    outputs = [] if shown is None else [result(shown)]
+    given = scored(outputs, 3.0, number=True)
+    assert (given.points, given.look) == (0.0, True)
+    assert "number of points" in given.note
+    assert scored(outputs, 3.0).points == 3.0
+    assert not returns_number(outputs)
+
+
+def test_a_number_that_is_due_counts():
+    assert scored([result("np.float64(0.5)")], 3.0, number=True) == Mark(0.5)
+    assert returns_number([result("np.float64(0.5)")])

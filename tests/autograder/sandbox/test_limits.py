@@ -197,6 +197,16 @@ def test_updates_of_a_display_do_not_add_up(sandbox):
         assert "cut here" in text(flood)
 
 
+@pytest.mark.parametrize("flood", ["print('x' * 5000)", "for i in range(300): display(i)"])
+def test_a_result_is_shown_even_after_too_much_output(sandbox, flood):
+    """It may be a number of points, and a cell without one would have them all."""
+    with sandbox.open(limits=Limits(output=1000)) as session:
+        result = session.run_cell(f"{flood}\n0.5")
+        assert result.outputs[-1]["data"] == {"text/plain": "0.5"}
+        called = session.run_cell(f"{flood}\nfor i in range(1000): get_ipython().displayhook(i)")
+        assert len(called.outputs) < 220
+
+
 def test_many_updates_of_one_display_cost_as_much_as_the_last(sandbox):
     """A recorder that was tampered with tells of 9000 updates, and each would go to all places of that display."""
     tampered = "R = get_ipython().recorder\n"
