@@ -10,8 +10,9 @@ children; CPU is user and system time of the process and of all it started, peak
 of it (of the trusted side: the grader's own processes, without the sandbox's).
 
 nbgrader grades one submission after the other at a constant rate, so it is given fewer of them (``--peer``) and its start-up is
-taken off its time, in its favour; ours pays for its own. Under stock nbgrader ``check`` refuses to judge, so in courses of
-exercises nbgrader only executes the notebooks. In the ordinary course it grades, and the tables of both are compared.
+taken off its time, in its favour; ours pays for its own. Under nbgrader ``check`` refuses to judge, since in the learner's own
+process every answer can be forged; here that refusal is lifted, so that nbgrader has to do what ours does: the public data are
+judged in its kernel, and give the same marks. The tables of both are compared.
 The bare sandbox runs the same cells in the same kind of process, as many at a time, and reads, judges, writes nothing.
 Times depend on the machine and on who else uses it; the ratios are what is meant to be read.
 More than 400 lines, for a row is to be read beside the ones that it is compared with, all made in the same way.
@@ -45,6 +46,7 @@ from autograder.fleet.workers import Crew
 from autograder.notebook.session import opened
 
 STOCK = "c = get_config()\nc.CourseDirectory.course_id = 'bench'\n"
+JUDGING = "import os\nos.environ.pop('NBGRADER_EXECUTION', None)  # by which check knows that it is to refuse\n"
 BARE = "bare sandbox"
 
 
@@ -159,9 +161,10 @@ def compile_packages() -> None:
         compileall.compile_dir(Path(__file__).parents[1] / room, quiet=2)
 
 
-def _run(command: list[str], folder: Path) -> Figures:
+def _run(command: list[str], folder: Path, **variables: str) -> Figures:
     """A whole process in a folder, which must succeed; its memory is watched while it runs."""
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+    path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PATH": path, **variables}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     with tempfile.TemporaryFile() as said:
@@ -259,14 +262,21 @@ def best(command: list[str], template: Path, scratch: Path, rounds: int, count: 
         shutil.copytree(template, place)
         for student in sorted((place / "submitted").iterdir())[count:]:
             shutil.rmtree(student)
-        if "nbgrader" in command:
-            (place / "nbgrader_config.py").write_text(STOCK)
-        figures = _run(command, place)
+        figures = _run(command, place, **(_stock(place) if "nbgrader" in command else {}))
         figures.submissions = count
         found.append(figures)
         if not keep:
             shutil.rmtree(place)
     return min(found, key=lambda one: one.seconds)
+
+
+def _stock(place: Path) -> dict[str, str]:
+    """Make a course one of stock nbgrader, whose kernels judge; the variables for that."""
+    (place / "nbgrader_config.py").write_text(STOCK)
+    startup = place / "ipython" / "profile_default" / "startup"
+    startup.mkdir(parents=True)
+    (startup / "judging.py").write_text(JUDGING)
+    return {"IPYTHONDIR": str(place / "ipython")}
 
 
 # ---- Dask
@@ -332,7 +342,7 @@ def compare(name: str, options: argparse.Namespace, scratch: Path) -> None:
     """One course: nbgrader, the bare sandbox, ours with each number of workers; then feedback and growth."""
     template = scratch / name
     assignment = COURSES[name](template, options.submissions)
-    ours = [sys.executable, "-m", "autograder", "grade", assignment, "--workers"]
+    grade = [sys.executable, "-m", "autograder", "grade", assignment, "--workers"]
     stock = [sys.executable, "-m", "nbgrader", "autograde", assignment]
     most = max(options.workers)
     again = functools.partial(best, template=template, scratch=scratch, rounds=options.rounds)
@@ -341,29 +351,30 @@ def compare(name: str, options: argparse.Namespace, scratch: Path) -> None:
     rows = {"nbgrader autograde, start-up off": Figures(count, many.seconds - one.seconds, many.cpu - one.cpu, many.memory)}
     for workers in options.workers:
         keep = f"{name}-ours" if workers == most else ""
-        rows[f"directrix grade, {workers} workers"] = again([*ours, str(workers)], count=options.submissions, keep=keep)
+        rows[f"directrix grade, {workers} workers"] = again([*grade, str(workers)], count=options.submissions, keep=keep)
     sandbox = [sys.executable, __file__, "--bare", assignment, str(most)]
     rows[f"{BARE}, {most} workers"] = again(sandbox, count=options.submissions)
     for protocol in options.dask or ():
         with dask_cluster(most, protocol) as address:
-            command = [*ours[:-1], "--scheduler", address]
+            command = [*grade[:-1], "--scheduler", address]
             rows[f"directrix grade, Dask {protocol}, {most}"] = again(command, count=options.submissions)
     print(f"\n{name}: {assignment}, {options.submissions} different submissions, {os.cpu_count()} processors")
     table(rows, next(iter(rows)))
     share = rows[f"directrix grade, {most} workers"].rate / rows[f"{BARE}, {most} workers"].rate
     print(f"  directrix grade reaches {share:.0%} of what the bare sandbox alone does")
     graded, stocked = scratch / f"{name}-ours", scratch / f"{name}-stock"
-    if name == "ordinary":
-        theirs = marks(stocked)
-        students = {row[0] for row in theirs}
-        mine = [row for row in marks(graded) if row[0] in students]
-        print(f"  grades and comments of the {len(students)} that both graded: {'equal' if mine == theirs else 'DIFFERENT'}")
-        if options.otter and (figures := otter(scratch, next((graded / "submitted").rglob("*.ipynb")))) is not None:
+    theirs = marks(stocked)
+    students = {row[0] for row in theirs}
+    mine = [row for row in marks(graded) if row[0] in students]
+    print(f"  grades and comments of the {len(students)} that both graded: {'equal' if mine == theirs else 'DIFFERENT'}")
+    if options.otter and name == "ordinary":
+        figures = otter(scratch, next((graded / "submitted").rglob("*.ipynb")))
+        if figures is not None:
             table({"otter run, start-up in it": figures, **rows}, next(iter(rows)))
-    theirs = _run([sys.executable, "-m", "nbgrader", "generate_feedback", assignment], stocked)
-    mine = _run([sys.executable, "-m", "autograder", "feedback", assignment], graded)
-    theirs.submissions, mine.submissions = options.peer, options.submissions
-    table({"nbgrader generate_feedback": theirs, "directrix feedback": mine}, "nbgrader generate_feedback")
+    peer = _run([sys.executable, "-m", "nbgrader", "generate_feedback", assignment], stocked)
+    ours = _run([sys.executable, "-m", "autograder", "feedback", assignment], graded)
+    peer.submissions, ours.submissions = options.peer, options.submissions
+    table({"nbgrader generate_feedback": peer, "directrix feedback": ours}, "nbgrader generate_feedback")
 
 
 def growth(counts: list[int], scratch: Path, workers: int) -> None:
