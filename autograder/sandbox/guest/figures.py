@@ -11,7 +11,9 @@ import base64
 import contextlib
 import copy
 import importlib
+import importlib.metadata
 import json
+import sys
 import types
 from typing import TYPE_CHECKING, Any
 
@@ -29,6 +31,20 @@ SKIPPED = frozenset({"geojson", "layer", "layers", "range"})  # plotly writes th
 
 class Other(Exception):
     """Something that plotly itself must write."""
+
+
+def ask_nbformat_for_its_version_only() -> None:
+    """plotly asks nbformat for nothing else, but loads it, and with it jsonschema and forty grammars of addresses: that takes
+    longer than all that notebooks need. Whoever imports nbformat in a notebook gets all of it.
+    """
+    with contextlib.suppress(ImportError):  # PackageNotFoundError is one: plotly says what is missing
+        nbformat: Any = types.ModuleType("nbformat")
+        nbformat.__version__ = importlib.metadata.version("nbformat")
+        if sys.modules.setdefault("nbformat", nbformat) is nbformat:
+            try:
+                importlib.import_module("plotly.io._renderers")
+            finally:
+                del sys.modules["nbformat"]
 
 
 def take_arrays_as_they_are() -> None:

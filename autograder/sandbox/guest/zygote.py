@@ -146,6 +146,7 @@ def _warm_up(shell: Shell, preload: list[str]) -> None:
             with contextlib.suppress(Exception):
                 importlib.import_module(name)
         if "plotly" in sys.modules:
+            figures.ask_nbformat_for_its_version_only()
             figures.take_arrays_as_they_are()
             figures.copy_quickly()
         for figure in _figures(sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")):
