@@ -332,16 +332,16 @@ class _Run:
     @contextlib.contextmanager
     def _plan(self) -> Iterator[Plan]:
         course, exercises = self.course, self._posed()
-        drawing = threading.Thread(target=preparing.load_drawing, daemon=True)
+        loading = threading.Thread(target=preparing.load_searching, daemon=True)
         if exercises:
-            drawing.start()
+            loading.start()
         draws = any(master.draws for master in self.masters.values())
         with opened(
             exercises.values(), course.packages, self.required, course.timeout, course.withhold, draws=draws, begun=self.begun
         ) as open_session:
             self.level = open_session.level
             if exercises:
-                drawing.join()
+                loading.join()
             scripts = course.scripts(self.row, self.masters, open_session)
             self.shared = {f"{name}.ipynb: {cell}": why for name in scripts for cell, why in scripts[name].shared.items()}
             yield Plan(

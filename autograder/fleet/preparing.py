@@ -1,11 +1,10 @@
-"""What a grading run does before its first submission: a sandbox early, limits that fit the machine, drawing loaded."""
+"""What a grading run does before its first submission: a sandbox early, limits that fit the machine, what is searched with."""
 
 from __future__ import annotations
 
 import dataclasses
 import importlib
 import logging
-from typing import Any
 
 from autograder.course import Course
 from autograder.fleet import capacity
@@ -34,8 +33,6 @@ def fitted(plan: Plan, workers: int) -> tuple[Plan, int]:
     return dataclasses.replace(plan, open_session=dataclasses.replace(session, bounds=bounds)), fit.workers
 
 
-def load_drawing() -> None:
-    """Load what judging and cards take while the sandbox starts: forked workers then share it, instead of each loading it."""
+def load_searching() -> None:
+    """Load what the judge searches with while the sandbox starts: forked workers then share it, instead of each loading it."""
     importlib.import_module("scipy.spatial")
-    go: Any = importlib.import_module("plotly.graph_objects")
-    go.Figure([go.Surface(), go.Scatter3d(), go.Scatter()], {"scene": {}}).to_dict()

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from autograder.course import Course
 from autograder.fleet.journal import Journal
 from autograder.fleet.result import GradeReport, StudentReport
 from autograder.fleet.spool import Spool
-from autograder.gradebook import AssignmentRow, Gradebook, Standing
+from autograder.gradebook import AssignmentRow, Standing
+
+if TYPE_CHECKING:
+    from autograder.gradebook import Gradebook  # which brings SQLAlchemy along
 
 BATCH = 50
 

@@ -246,6 +246,14 @@ def test_the_report_is_json_both_ways(ordinary):
     assert fleet.StudentReport.from_dict(data["students"][0]) == graded.students[0]
 
 
+def test_what_takes_long_to_load_is_not_loaded_before_the_sandbox_starts():
+    """SQLAlchemy, scipy and plotly wait, or the sandbox would."""
+    late = ("sqlalchemy", "scipy", "plotly", "nbformat", "nbgrader")
+    code = f"import sys; from autograder import fleet, report; print(sorted(set(sys.modules) & set({late!r})))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert done.stdout.strip() == "[]", done.stderr
+
+
 def test_the_hot_path_imports_no_nbgrader(ordinary):
     """Three seconds of imports, and an ORM that costs a hundred times the statements."""
     ordinary.hand_in("ada", {"one": RIGHT, "two": ADD})

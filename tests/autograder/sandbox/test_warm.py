@@ -136,6 +136,19 @@ def test_figures_are_shown_at_once_as_plotly_shows_them(template):
     assert counted.outputs[0]["text"] == "[True, True, True, False, True, False, True]\n", "integers and NaN are left to plotly"
 
 
+def test_nbformat_is_loaded_by_who_imports_it():
+    """plotly has been told its version, and shows figures by it; that is all that was left of it."""
+    with Sandbox(Policy()) as box, box.open() as notebook:
+        before = notebook.run_cell("import sys\nprint('nbformat' in sys.modules, 'jsonschema' in sys.modules)")
+        assert before.outputs[0]["text"] == "False False\n"
+        told = notebook.run_cell("import plotly.io._renderers as r\nprint(r.nbformat.__version__)").outputs[0]["text"]
+        real = notebook.run_cell("import nbformat\nprint(nbformat.__version__, nbformat.v4.new_notebook().nbformat)")
+        assert real.outputs[0]["text"] == f"{told.strip()} 4\n"
+    with Sandbox(Policy(packages=("numpy", "plotly"))) as box, box.open() as notebook:
+        shown = notebook.run_cell("import plotly.graph_objects as go\ngo.Figure(go.Scatter(y=[1]))")
+        assert "application/vnd.plotly.v1+json" in shown.outputs[0]["data"]
+
+
 def test_what_a_notebook_changes_in_plotly_holds():
     with Sandbox(Policy()) as box, box.open() as notebook:
         notebook.run_cell("import plotly.graph_objects as go, plotly.io as pio\nfigure = go.Figure(go.Scatter(y=[1]))")
