@@ -31,6 +31,8 @@ DISK = {
     errno.ENAMETOOLONG: "choose a shorter name",
 }
 
+INTERRUPTED = 130  # as a shell counts: 128 and the number of the signal
+
 app = typer.Typer(
     name="directrix",
     no_args_is_help=True,
@@ -69,14 +71,16 @@ def main() -> None:
     """Run the command line; an error made on purpose is one plain line, not a traceback."""
     gc.set_threshold(10_000, 20, 100)  # loading makes many objects and no garbage; looking for some takes a quarter of the time
     try:
-        app()
+        app(prog_name="directrix")
     except DirectrixError as error:
         said = "".join(letter if letter.isprintable() or letter == "\n" else "\ufffd" for letter in str(error))
         print(f"directrix: {said}", file=sys.stderr)  # a name in it came from a student: it must not steer the terminal
         sys.exit(1)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, SystemExit) as ended:
+        if isinstance(ended, SystemExit) and ended.code != INTERRUPTED:  # which is all that typer makes of Ctrl-C
+            raise
         print("directrix: stopped; what was finished is kept", file=sys.stderr)
-        sys.exit(130)
+        sys.exit(INTERRUPTED)
     except BrokenPipeError:  # the reader of our output has gone, as in `directrix doctor | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)

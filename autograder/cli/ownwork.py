@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import math
 import os
 import re
 import shlex
+import signal
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -50,6 +53,28 @@ class OwnWork:
         return asdict(self) | {"complete": self.complete}
 
 
+class Client(NotebookClient):
+    """nbclient, which at Ctrl-C ends its kernel and then fails in its own code; here the run is what ends."""
+
+    interrupted = False
+
+    async def async_start_new_kernel(self, **kwargs: Any) -> None:
+        """Start the kernel. It comes right after nbclient has said what Ctrl-C does."""
+        task = asyncio.current_task()
+        assert task is not None
+
+        def stop() -> None:
+            self.interrupted, self.shutdown_kernel = (
+                True,
+                "immediate",
+            )  # a kernel that is asked to end prints how it was disturbed
+            task.cancel()
+
+        with contextlib.suppress(NotImplementedError, RuntimeError):  # no signals on Windows, nor outside the main thread
+            asyncio.get_running_loop().add_signal_handler(signal.SIGINT, stop)
+        await super().async_start_new_kernel(**kwargs)
+
+
 def run(path: Path, *, timeout: int, environment: Mapping[str, str] | None = None) -> OwnWork:
     """Execute a notebook and read the outputs of its ``check(...)`` cells. The file itself is left as it is.
 
@@ -66,7 +91,7 @@ def run(path: Path, *, timeout: int, environment: Mapping[str, str] | None = Non
     except Exception as error:
         raise SubmissionError(f"{path} is not a notebook that can be read: {error}") from error
     stopped = ""
-    client = NotebookClient(
+    client = Client(
         notebook,
         timeout=timeout,
         allow_errors=True,
@@ -76,12 +101,16 @@ def run(path: Path, *, timeout: int, environment: Mapping[str, str] | None = Non
     )
     try:
         client.execute(env={**os.environ, **(environment or {})})
+    except (asyncio.CancelledError, DeadKernelError) as error:
+        if client.interrupted:
+            raise KeyboardInterrupt from None
+        if not isinstance(error, DeadKernelError):
+            raise
+        stopped = "the kernel ended while a cell was running, so the cells after it were not run; look for exit() or for memory"
     except CellTimeoutError:
         stopped = (
             f"a cell took more than {timeout} seconds, so the cells after it were not run; look for a loop that never ends"
         )
-    except DeadKernelError:
-        stopped = "the kernel ended while a cell was running, so the cells after it were not run; look for exit() or for memory"
     return OwnWork(str(path), tuple(_checks(notebook)), stopped)
 
 

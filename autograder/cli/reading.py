@@ -6,12 +6,14 @@ import dataclasses
 import json
 import sys
 from collections.abc import Iterator
+from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from autograder.cli.options import AsJson, CourseOption, console_for, opened
+from autograder.whole import replaced
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -61,7 +63,8 @@ def similar(
     console = console_for(as_json)
     console.print(table(report))
     if html is not None:
-        html.write_text(page(report), "utf-8", errors="replace")
+        with replaced(html) as file:
+            file.write(page(report).encode("utf-8", "replace"))
         said = f"{html}: the pairs side by side; it names students, so keep it as you keep marks"
         console.print(said, highlight=False, markup=False)
     if as_json:
@@ -119,8 +122,9 @@ def export(
 def _write(sheet: Sheet, path: Path, console: Console) -> None:
     from autograder.gradebook import export as exporting
 
-    with path.open("w", encoding="utf-8", newline="") as file:
-        exporting.write_csv(sheet, file)
+    with replaced(path) as file:
+        exporting.write_csv(sheet, text := TextIOWrapper(file, "utf-8", newline=""))
+        text.detach()
     console.print(f"{path}: {len(sheet.rows)} students, {sheet.available:g} points", highlight=False, markup=False)
 
 

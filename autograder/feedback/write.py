@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import base64
 import mimetypes
-import os
-import secrets
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -19,6 +17,7 @@ from autograder.feedback.page import Absent, Scored, Sheet, render
 from autograder.gradebook import AssignmentRow, Gradebook
 from autograder.notebook.safe import IMAGES
 from autograder.notebook.submission import parse, read_file
+from autograder.whole import replaced
 
 # nbgrader compares the first to know whether its feedback is up to date; to release feedback it needs the second too.
 BESIDE = ("timestamp.txt", "submission_secret.txt")
@@ -174,7 +173,5 @@ def _put(path: Path, data: bytes, mode: int) -> None:
     if path.is_file() and path.read_bytes() == data:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
-    new = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
-    new.write_bytes(data)
-    new.chmod(mode)
-    os.replace(new, path)
+    with replaced(path, mode) as file:
+        file.write(data)

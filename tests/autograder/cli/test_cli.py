@@ -4,8 +4,10 @@ import io
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import nbformat
@@ -116,6 +118,27 @@ def test_a_file_that_cannot_be_written_is_a_plain_line(surfaces, arguments):
     said = directrix(*arguments, "nowhere/file", cwd=surfaces.folder)
     assert said.returncode == 1
     assert said.stderr == "directrix: nowhere/file: No such file or directory; is its folder there?\n"
+
+
+def test_a_full_disk_is_told_with_the_file_that_was_wanted(ordinary):
+    said = directrix("export", "ps1", "--csv", "/dev/full", cwd=ordinary.folder)
+    assert (said.returncode, said.stdout) == (1, "")
+    wanted = "directrix: /dev/full: No space left on device; make room, then start again; what was finished is kept\n"
+    assert said.stderr == wanted
+
+
+def test_ctrl_c_is_one_plain_line(tmp_path):
+    """Here in the middle of a cell: what runs the notebook has a way of its own to end, and says nothing of it."""
+    cell = "import pathlib, time\npathlib.Path('started').touch()\ntime.sleep(60)"
+    nbformat.write(nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell)]), tmp_path / "slow.ipynb")
+    command = [sys.executable, "-m", "autograder", "check", "slow.ipynb"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+        while not (tmp_path / "started").exists():
+            assert running.poll() is None
+            time.sleep(0.05)
+        running.send_signal(signal.SIGINT)
+        said = running.communicate(timeout=60)
+    assert (running.returncode, *said) == (130, "", "directrix: stopped; what was finished is kept\n")
 
 
 def test_lab_opens_the_course_whose_folder_it_is_started_in(tmp_path, monkeypatch):
