@@ -95,7 +95,7 @@
   function walk(holder, slider) {
     var at = 0, timer = null, busy = false;
     var controls = document.getElementById("walk").content.firstElementChild.cloneNode(true);
-    var play = controls.querySelector("button"), input = controls.querySelector("input"), place = controls.querySelector("output");
+    var play = controls.querySelector("button"), input = controls.querySelector("input"), place = controls.querySelector("span");
     var words = [play.textContent, play.dataset.pause], last = slider.steps.length - 1;
     input.max = last;
     holder.parentNode.insertBefore(controls, holder.nextSibling);

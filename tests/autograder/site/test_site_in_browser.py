@@ -80,7 +80,7 @@ def test_a_walk_is_walked_by_keyboard(opened):
     page = opened("01-lines.html", viewport={"width": 900, "height": 700})
     walks = page.locator(".walk")
     assert walks.count() == 1
-    way, said, play = walks.locator("input"), walks.locator("output"), walks.locator("button")
+    way, said, play = walks.locator("input"), walks.locator("span"), walks.locator("button")
     marker = "[...document.querySelectorAll('.js-plotly-plot')].map(plot => plot.data[0].x[0]).at(-1)"
     page.keyboard.press("End")  # the figure is drawn where it is seen
     way.scroll_into_view_if_needed()
