@@ -25,7 +25,7 @@ from autograder.errors import CourseError, SubmissionError
 from autograder.fleet import publish
 from autograder.notebook import archive
 from autograder.notebook.archive import Unpacked
-from autograder.notebook.submission import PLAIN_ID, Bounds, beside
+from autograder.notebook.submission import NO_ID, PLAIN_ID, Bounds, beside
 from autograder.sandbox.session import plain_name
 
 FOLDERS = re.compile(r".+_(?P<student>\d+)_assignsubmission_\w+?_?$")
@@ -205,7 +205,7 @@ def _place(course: Course, student: str, assignment: str, part: Unpacked, *, for
     place = course.path("submitted", student, assignment)
     reason = ""
     if not PLAIN_ID.fullmatch(student) or not plain_name(student) or student.startswith("."):
-        reason = "the name is no student's id"
+        reason = f"the name {NO_ID}"
     elif not part.files:
         reason = "there is nothing in it that can be taken"
     elif place.parent.is_symlink() or course.path("submitted", "x", assignment).parent.parent.is_symlink():

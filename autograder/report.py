@@ -18,6 +18,7 @@ from rich.table import Table
 from rich.text import Text
 
 from autograder.fleet import CellReport, GradeReport, StudentReport
+from autograder.fleet.result import STRAY
 
 PAGE = 100  # students in a table: the next has its heading again
 MOST_MISTAKES = 3
@@ -126,13 +127,18 @@ def _pieces(graded: GradeReport) -> Iterator[RenderableType]:
     found = parts(graded)
     if any(part.mistakes or part.mean is not None for part in found):
         yield from ("", _class(found))
-    without = (f"{student.student}: {'; '.join(student.notes)}" for student in graded.students if student.status == "empty")
+    without = (f"{student.student}: {'; '.join(student.notes)}" for student in graded.students if _misnamed(student))
     yield from _listed("No notebook under the name that was released", "bold yellow", without)
     yield from _listed("Could not be read", "bold red", graded.broken)
     yield from _listed("The grader's own failures", "bold red", graded.faults)
     shared = (f"{cell}: {why}" for cell, why in graded.shared.items())
     yield from _listed("Tests that ran in the learners' own process, where they can be tampered with", "bold yellow", shared)
     yield Text(_footer(graded), style="dim")
+
+
+def _misnamed(student: StudentReport) -> bool:
+    """Whether a notebook that was not handed in may lie there under another name."""
+    return student.status == "empty" or bool(student.missing and any(note.endswith(STRAY) for note in student.notes))
 
 
 def _listed(heading: str, style: str, lines: Iterable[str]) -> Iterator[RenderableType]:

@@ -7,7 +7,7 @@ rules      what every exercise must keep
 survey     which data set sees which mistake, and what each mistake earns
 """
 
-from autograder.authoring.courses import new_course, release, remove_course, unknown_to_learners, workbook
+from autograder.authoring.courses import new_course, points_in, release, remove_course, unknown_to_learners, workbook
 from autograder.authoring.rules import Breach, breaches
 from autograder.authoring.survey import Seen, survey, table
 from autograder.authoring.template import new_exercise
@@ -18,6 +18,7 @@ __all__ = [
     "breaches",
     "new_course",
     "new_exercise",
+    "points_in",
     "release",
     "remove_course",
     "survey",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import hashlib
 import json
 import logging
@@ -18,8 +19,9 @@ from typing import Any
 import nbformat
 
 from autograder import catalogue, settings
-from autograder.errors import CourseError
+from autograder.errors import CourseError, SubmissionError
 from autograder.notebook import source
+from autograder.notebook.submission import parse
 
 CONFIG = '''"""An nbgrader course that Directrix grades. Everything that nbgrader's own documentation says holds here too."""
 
@@ -98,6 +100,7 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     if not (course / "source" / name).is_dir():
         there = sorted(path.name for path in (course / "source").glob("*") if path.is_dir())
         raise CourseError(f"no assignment {name!r} in {course / 'source'}; there are: {', '.join(there) or 'none'}")
+    _readable(course / "source" / name)
     config: Any = settings.load(course.resolve())
     config.CourseDirectory.root = str(course.resolve())
     with _quiet("traitlets"), _tools_on_path():
@@ -110,6 +113,21 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     return released
 
 
+def _readable(folder: Path) -> None:
+    """Refuse what nbgrader cannot read, with the file and what to do: it names neither."""
+    paths = sorted(folder.glob("*.ipynb"))
+    if not paths:
+        raise CourseError(f"no notebook lies in {folder}; put one there, a file whose name ends in .ipynb")
+    for path in paths:
+        data = path.read_bytes()
+        if data.startswith((codecs.BOM_UTF8, codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            raise CourseError(f"{path} begins with a byte order mark, which nbgrader cannot read; save it as UTF-8 without one")
+        try:
+            parse(data)
+        except SubmissionError as error:
+            raise CourseError(f"{path} cannot be released: {error}") from None
+
+
 def _said(log: str) -> str:
     """What nbgrader's log says was wrong: what was raised, without the lines of code it went through; else its errors."""
     raised = re.findall(r"^ {4}([\w.]+): (.*)$", log, re.MULTILINE)
@@ -117,6 +135,13 @@ def _said(log: str) -> str:
                          for kind, text in raised)  # fmt: skip
     said = said or dict.fromkeys(re.findall(r"^\[(?:ERROR|WARNING)\] (.*)$", log, re.MULTILINE))
     return "; ".join(said) or log.strip()
+
+
+def points_in(course: Path, name: str) -> float:
+    """Points of all graded cells of an assignment in ``source/``, those that a person marks too."""
+    notebooks = [_read(path) for path in (course / "source" / name).glob("*.ipynb")]
+    graded = (cell.metadata.get("nbgrader", {}) for notebook in notebooks for cell in notebook.cells)
+    return float(sum(about.get("points", 0) for about in graded if about.get("grade") or about.get("task")))
 
 
 def unknown_to_learners(course: Path, released: Path) -> list[str]:

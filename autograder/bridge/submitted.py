@@ -15,7 +15,7 @@ from typing import Any
 import nbformat
 from nbconvert.exporters import NotebookExporter
 
-from autograder.notebook.submission import PLAIN_ID, Bounds, parse, read_file
+from autograder.notebook.submission import NO_ID, PLAIN_ID, Bounds, parse, read_file
 
 
 class Submitted(NotebookExporter):
@@ -36,7 +36,7 @@ class Submitted(NotebookExporter):
         layout = converter._format_source("(?P<assignment_id>.*)", "(?P<student_id>.*)", escape=True)
         student = re.fullmatch(layout, folder, re.DOTALL)
         if student is None or not PLAIN_ID.fullmatch(student["student_id"]):
-            return "the name of its folder is no student's id"
+            return f"the name of its folder {NO_ID}; rename it"
         above = Path(folder).parent
         if os.path.islink(folder) or (above.name == student["student_id"] and above.is_symlink()):
             return "it is a link"

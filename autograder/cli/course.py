@@ -67,7 +67,7 @@ def new(
     if course is None:
         raise typer.BadParameter("the folder of the new course, as in: directrix new surfaces-2027", param_hint="COURSE")
     made = authoring.new_course(course, tuple(assignment or ()))
-    listed = ", ".join(f"{a.name} {a.slug} ({a.points:g} points)" for a in made)
+    listed = ", ".join(f"{a.name} {a.slug} ({authoring.points_in(course, a.name):g} points)" for a in made)
     console.print(f"{course}: {listed}", highlight=False, markup=False)
     console.print(f"Next: directrix release {made[0].name} --course {typed(course)}", **AS_IT_IS)
 

@@ -64,10 +64,8 @@ class Client(NotebookClient):
         assert task is not None
 
         def stop() -> None:
-            self.interrupted, self.shutdown_kernel = (
-                True,
-                "immediate",
-            )  # a kernel that is asked to end prints how it was disturbed
+            self.interrupted = True
+            self.shutdown_kernel = "immediate"  # one that is asked to end prints how it was disturbed
             task.cancel()
 
         with contextlib.suppress(NotImplementedError, RuntimeError):  # no signals on Windows, nor outside the main thread

@@ -34,7 +34,7 @@ from autograder.fleet.workers import Crew, Lost
 from autograder.gradebook import NotebookMarks, Record
 from autograder.notebook.secret import hidden_seed
 from autograder.notebook.session import Begun, opened
-from autograder.notebook.submission import PLAIN_ID, Submission, read_file, read_folder
+from autograder.notebook.submission import NO_ID, PLAIN_ID, Submission, read_file, read_folder
 from autograder.notebook.timestamps import FILE, handed_in
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ class _Run:
         for student in students:
             folder = self._folder(student)
             if not PLAIN_ID.fullmatch(student):
-                self._settled(StudentReport(student, "broken", broken=("the name of its folder is no student's id",)))
+                self._settled(StudentReport(student, "broken", broken=(f"the name of its folder {NO_ID}; rename it",)))
             elif folder.parent.name == student and folder.parent.is_symlink():
                 self._settled(StudentReport(student, "broken", broken=("the student's folder is a link to another folder",)))
             elif known is not None and student not in known:

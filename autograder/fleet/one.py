@@ -14,7 +14,7 @@ from typing import Any
 from autograder.course import Course
 from autograder.errors import SubmissionError
 from autograder.exercise import Exercise
-from autograder.fleet.result import CellReport, Status, StudentReport
+from autograder.fleet.result import STRAY, CellReport, Status, StudentReport
 from autograder.gradebook import NotebookMarks, Record
 from autograder.notebook import limit, own
 from autograder.notebook.apart import Apart, Script
@@ -109,7 +109,7 @@ class _Work:
         self.missing: list[str] = []
         self.hurried = False
         unknown = sorted(path for path in submitted.files if path.endswith(".ipynb") and path[:-6] not in plan.masters)
-        self.notes += [f"{path}: not a notebook of this assignment, left out" for path in unknown]
+        self.notes += [f"{path}: {STRAY}" for path in unknown]
         if not set(submitted.notebooks) & set(plan.masters):
             archives = sorted(path for path in submitted.files if path.lower().endswith(".zip"))
             self.notes += [f"{path}: an archive, not opened" for path in archives]
@@ -124,7 +124,7 @@ class _Work:
             return
         if data is None:
             self.marks[name] = NotebookMarks(missing=True)
-            self._report(name, master, {cell.name: Mark(0.0) for cell in master.graded})
+            self._report(name, master, dict.fromkeys(master.cells, Mark(0.0)))  # tasks too: there is nothing to look at
             self.notes.append(f"{name}.ipynb: not handed in")
             self.missing.append(name)
             return

@@ -12,6 +12,7 @@ from autograder.result import Verdict
 
 Kind = Literal["exercise", "test", "written", "task"]
 Status = Literal["graded", "unchanged", "broken", "empty", "failed"]
+STRAY = "not a notebook of this assignment, left out"  # how a note ends about a notebook under a name that was not released
 
 
 @dataclass(frozen=True, slots=True)

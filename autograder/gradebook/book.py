@@ -93,9 +93,9 @@ class Gradebook:
             if row is None:
                 known = connection.scalars(sa.select(assignment.c.name).order_by(assignment.c.name)).all()
                 there = f"there are: {', '.join(known)}" if known else "there is none yet"
-                raise CourseError(
-                    f"the gradebook has no assignment {name!r}; {there}. Release it first: directrix release {name}"
-                )
+                near = [one for one in known if one.casefold() == name.strip(" /").casefold()]
+                what = f"Did you mean {near[0]}?" if near else f"Release it first: directrix release {name}"
+                raise CourseError(f"the gradebook has no assignment {name!r}; {there}. {what}")
             notebooks = connection.execute(
                 sa.select(notebook).where(notebook.c.assignment_id == row.id).order_by(notebook.c.name)
             ).all()

@@ -27,6 +27,7 @@ IGNORE = (".ipynb_checkpoints", "*.pyc", "__pycache__", "feedback")  # nbgrader'
 MAX_DEPTH = 12
 # formgrader writes ids into its pages as they are
 PLAIN_ID = re.compile(r"[^\x00-\x1f\x7f<>&\"'`\\\ud800-\udfff]{1,128}")
+NO_ID = "is no student's id: that has up to 128 letters, digits, blanks and signs, but none of < > & \" ' ` \\"
 
 
 @dataclass(frozen=True)
@@ -234,7 +235,9 @@ def parse(data: bytes) -> dict[str, Any]:
     try:
         notebook: Any = json.loads(data)
     except UnicodeDecodeError:
-        raise SubmissionError("the notebook is no text; perhaps another kind of file was renamed") from None
+        raise SubmissionError(
+            "the notebook is no text in UTF-8; perhaps another kind of file was renamed, or an editor wrote it anew"
+        ) from None
     except json.JSONDecodeError as error:
         begins = error.doc.strip()[:16]
         if not begins:

@@ -8,6 +8,7 @@ import pytest
 
 from autograder import cli, collect, fleet
 from autograder.errors import CourseError
+from autograder.notebook.submission import NO_ID
 
 spec = importlib.util.spec_from_file_location("archives", Path(__file__).parent / "notebook" / "test_archive.py")
 archives = importlib.util.module_from_spec(spec)
@@ -108,7 +109,7 @@ def test_nothing_is_written_outside_and_every_refusal_is_named(ordinary, tmp_pat
     assert {path for path in after - before if "submitted" not in path} == {str(tmp_path / "export.zip")}
     assert set(found["ada"].refused) == {"../bob/one.ipynb", "link"}
     assert set(found[""].refused) == {"../../evil", "/abs/one.ipynb", "stray.ipynb", "cas/x\x1b"}
-    assert found["a<b"].refused[""] == found[".hidden"].refused[""] == "the name is no student's id"
+    assert found["a<b"].refused[""] == found[".hidden"].refused[""] == f"the name {NO_ID}"
 
 
 def test_what_was_handed_in_before_stays_unless_told_otherwise(ordinary, tmp_path):

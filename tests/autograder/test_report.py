@@ -10,6 +10,7 @@ from rich.console import Console
 
 from autograder import report
 from autograder.fleet import CellReport, GradeReport, StudentReport
+from autograder.fleet.result import STRAY
 
 
 def cell(name, points, available=4.0, **more):
@@ -75,6 +76,20 @@ def test_a_notebook_under_another_name_is_named_with_what_was_wanted():
     Console(file=out, width=160, color_system=None).print(report.table(graded))
     assert "A1: 1 submission\n" in "\n".join(line.rstrip() + "\n" for line in out.getvalue().splitlines())
     assert f"ada: {'; '.join(notes)}" in out.getvalue()
+
+
+def test_a_notebook_under_another_name_is_named_though_another_was_handed_in():
+    """And who simply left one out has that in the table only."""
+    stray, left_out = f"nb (1).ipynb: {STRAY}", "nb.ipynb: not handed in"
+    rows = (
+        student("ada", cell("cylinder", 4.0), missing=("nb",), notes=(stray, left_out)),
+        student("bob", cell("cylinder", 4.0), missing=("nb",), notes=(left_out,)),
+        student("eve", cell("cylinder", 4.0), notes=(stray,)),
+    )
+    out = io.StringIO()
+    Console(file=out, width=160, color_system=None).print(report.table(GradeReport("geo", "A1", "A", rows)))
+    assert f"ada: {stray}; {left_out}" in out.getvalue()
+    assert ("bob:" in out.getvalue(), "eve:" in out.getvalue()) == (False, False)
 
 
 def test_one_notebook_of_several_that_was_not_handed_in_is_named_in_the_table():

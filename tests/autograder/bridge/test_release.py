@@ -1,5 +1,7 @@
 """An assignment whose exercise cells cannot be graded as they stand is not released."""
 
+import json
+
 import nbformat
 import pytest
 
@@ -61,6 +63,41 @@ def test_what_nbgrader_raises_is_told_without_its_lines_of_code(made, source):
     with pytest.raises(CourseError) as caught:
         authoring.release(made, "A1")
     assert str(caught.value) == "nbgrader could not release A1: RuntimeError: no end solution statement found"
+
+
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (
+            b"\xef\xbb\xbf{}",
+            "known-forms.ipynb begins with a byte order mark, which nbgrader cannot read; save it as UTF-8 without",
+        ),
+        (b"\xff\xfe{\0}\0", "begins with a byte order mark"),
+        (b"not json", "known-forms.ipynb cannot be released: the file is no notebook: it begins with 'not json'"),
+        (None, "source/A1; put one there, a file whose name ends in .ipynb"),
+    ],
+)
+def test_a_notebook_that_nbgrader_cannot_read_is_named_with_what_to_do(made, data, says):
+    path = made / "source" / "A1" / "known-forms.ipynb"
+    before = path.read_bytes()
+    path.unlink() if data is None else path.write_bytes(data)
+    with pytest.raises(CourseError) as caught:
+        authoring.release(made, "A1")
+    path.write_bytes(before)
+    assert says in str(caught.value)
+
+
+def test_windows_line_ends_and_the_first_format_with_cells_are_released(made):
+    """As an editor on Windows writes them; nbformat 4.0 has no ids of cells."""
+    path = made / "source" / "A1" / "known-forms.ipynb"
+    before = path.read_bytes()
+    old = json.loads(before)
+    old["nbformat_minor"] = 0
+    for cell in old["cells"]:
+        cell.pop("id", None)
+    path.write_text(json.dumps(old, indent=1), newline="\r\n")
+    assert authoring.release(made, "A1").is_dir()
+    path.write_bytes(before)
 
 
 def test_a_configuration_that_cannot_be_read_is_a_plain_sentence(made):

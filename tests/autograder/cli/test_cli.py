@@ -104,6 +104,7 @@ def test_a_command_to_be_typed_can_be_typed(tmp_path):
     """With blanks in the folder's name, and though the line is longer than the screen."""
     made = directrix("new", "surfaces and solids", "--assignment", "A1", cwd=tmp_path)
     assert "Next: directrix release A1 --course 'surfaces and solids'\n" in made.stdout
+    assert "A1 known-forms (27 points)" in made.stdout  # those that a person gives too, as the table of marks says
 
 
 def test_grade_says_where_submissions_should_lie_if_there_is_none(surfaces):

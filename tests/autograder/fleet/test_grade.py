@@ -108,6 +108,7 @@ def test_a_missing_notebook_is_zero_and_a_broken_one_is_named(ordinary):
     assert points(graded, "bob") == {**points(graded, "ada"), "test_add": None}
     assert graded.broken[0].startswith("bob: two.ipynb: the notebook is not valid JSON: it ends in the middle")
     assert graded.student("eve").status == "empty"
+    assert graded.student("eve").looks == 0  # there is nothing of the task either
     assert graded.student("eve").notes == ("one.ipynb: not handed in", "two.ipynb: not handed in")
     grades = {(row[0], row[2]): row[4:] for row in ordinary.tables()["grades"]}
     assert grades["ada", "test_add"] == (0.0, None, None, 0)

@@ -1,6 +1,7 @@
 """Writing the gradebook: batches, what is never touched, and what nbgrader's own API reads afterwards."""
 
 import datetime
+import re
 import threading
 
 import pytest
@@ -166,6 +167,12 @@ def test_two_writers_wait_for_each_other(book, ordinary):
         thread.join()
     assert failures == []
     assert ordinary.sql("select count(*) from submitted_assignment") == [(30,)]
+
+
+@pytest.mark.parametrize(("name", "says"), [("PS1", "Did you mean ps1?"), ("ps1/", "Did you mean ps1?"), ("ps2", "Release it")])
+def test_an_assignment_that_is_not_there_is_told_from_one_that_was_mistyped(book, name, says):
+    with pytest.raises(CourseError, match=re.escape(f"has no assignment {name!r}; there are: ps1. {says}")):
+        book.assignment(name)
 
 
 def test_what_is_no_gradebook_is_said_plainly(tmp_path):
