@@ -162,11 +162,14 @@ class Process:
         read = bytearray(data)
         while len(read) < count:
             self._within(watch, action)
+            ready = [descriptor for descriptor, _ in self._poll.poll(watch.pause(self._cpu) * 1000)]
+            if self._link.fileno() not in ready:
+                if ready:
+                    self._drain_or_gone(action)
+                continue
             try:
                 part = self._link.recv(min(count - len(read), 2**20) if read else 2**16)
             except BlockingIOError:
-                if any(descriptor == self._pidfd for descriptor, _ in self._poll.poll(watch.pause(self.cpu) * 1000)):
-                    self._drain_or_gone(action)
                 continue
             except OSError:
                 part = b""
