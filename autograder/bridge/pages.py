@@ -19,6 +19,7 @@ from traitlets import Bool
 
 from autograder.course import Course
 from autograder.feedback import sheet
+from autograder.feedback.cells import LONGEST_LINE
 from autograder.feedback.markdown import to_html
 from autograder.feedback.page import render
 from autograder.feedback.write import course_hidden, images_of
@@ -61,6 +62,7 @@ class Harmless(Preprocessor):
             if cell.cell_type == "raw":
                 cell.cell_type, cell.source = "markdown", _as_code(cell.source)
             if cell.cell_type == "code":
+                cell.source = _folded(cell.source)
                 outputs = []
                 for output in safe.outputs(cell.outputs):
                     if safe.FIGURE in output.get("data", {}):
@@ -86,6 +88,12 @@ def markdown2html(context: Any, source: str) -> str:
 def _as_code(source: str) -> str:
     fence = "`" * max(3, 1 + max(map(len, re.findall("`+", source)), default=0))
     return f"{fence}\n{source}\n{fence}"
+
+
+def _folded(source: str) -> str:
+    """The source with lines that no person wrote broken: the template's lexer may take the square of a line's length."""
+    parts = ([line[at : at + LONGEST_LINE] for at in range(0, len(line), LONGEST_LINE)] or [""] for line in source.split("\n"))
+    return "\n".join(part for line in parts for part in line)
 
 
 def _node(nb: Any, output: Mapping[str, Any]) -> Any:

@@ -57,6 +57,8 @@ _STYLES = {
     "padding-left", "padding-right", "padding-top", "text-align", "text-decoration", "text-transform", "vertical-align",
     "white-space", "width", "word-break", "color-scheme",
 }  # fmt: skip
+# A margin below 0 lays an element over others.
+_REACHING = re.compile(r"url\s*\(|image|expression|calc|\\|margin[\w-]*\s*:[^;]*-", re.IGNORECASE)
 # Traces and layouts that fetch maps or pictures when they are drawn.
 _FETCHING = re.compile(r"mapbox|geo|choropleth|(scatter|density)map")
 CONTROLS = ("updatemenus", "sliders")
@@ -85,7 +87,7 @@ def _attribute(tag: str, name: str, value: str) -> str | None:
         return value if is_image(value) else None
     if name == "href" and value.strip().lower().startswith("data:"):
         return None
-    if name == "style" and re.search(r"url\s*\(|image|expression|\\", value, re.IGNORECASE):
+    if name == "style" and _REACHING.search(value):
         return None
     return value
 

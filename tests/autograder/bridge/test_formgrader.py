@@ -128,6 +128,15 @@ def test_without_our_line_the_same_notebook_runs_its_scripts(tmp_path, chromium)
             browser.close()
 
 
+def test_a_line_that_no_lexer_ends_with_is_broken_in_the_page():
+    from autograder.bridge.pages import _folded
+
+    assert _folded("x = 1\n\ny") == "x = 1\n\ny"
+    broken = _folded("'\\N{" * 1000)
+    assert max(map(len, broken.split("\n"))) == 2000
+    assert broken.replace("\n", "") == "'\\N{" * 1000
+
+
 def test_a_raw_cell_of_backticks_is_fenced_at_once():
     from autograder.bridge.pages import _as_code
 
