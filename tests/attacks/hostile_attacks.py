@@ -109,9 +109,19 @@ def _script_in_markdown(notebook: Notebook) -> None:
     notebook["cells"].append({"cell_type": "markdown", "id": "stored", "metadata": {}, "source": text})
 
 
+def _exchanged(notebook: Notebook) -> None:
+    """The simplest test under the names of the others."""
+    for cell in _graded(notebook):
+        cell["metadata"]["nbgrader"] |= {"grade_id": "t_partial", "schema_version": 10**9, "task": True}
+
+
 def _without_text(folder: Path, course: Path) -> None:
     notebook = folder / "lengths.ipynb"
     notebook.write_bytes(notebook.read_bytes()[:-40])
+
+
+def _no_time(folder: Path, course: Path) -> None:
+    (folder / "timestamp.txt").write_text("6" + "9" * 40 + "m15:00:00")  # decimal.InvalidOperation
 
 
 def _link_to_source(folder: Path, course: Path) -> None:
@@ -159,6 +169,9 @@ ATTACKS: dict[str, Attack] = {
     "tests_deleted": Attack(
         "test cells deleted from a resubmission, to keep the marks of the first one", change=_deleted, earlier=RIGHT,
         only=NBGRADER_LIKE,
+    ),
+    "names_exchanged": Attack(
+        "test cells under each other's names, with a schema of the future", change=_exchanged, only=NBGRADER_LIKE
     ),
     "forged_outputs": Attack(
         "outputs forged, graded with --no-execute", change=_executed, options=("--no-execute",), only=NBGRADER_LIKE
@@ -217,6 +230,12 @@ ATTACKS: dict[str, Attack] = {
         "a test's value made one that is no number, which some take for full marks",
         "class Odd:\n    __rmul__ = __mul__ = lambda s, o: 'passed'\nclass Any:\n    __eq__ = lambda s, o: Odd()\n"
         "    __hash__ = None\ndef norm(v): return Any()",
+    ),
+    "array_for_a_number": Attack(
+        "a test's value made an array, by an answer that is one", "import numpy as np\ndef norm(v): return np.array([99.0])"
+    ),
+    "value_drowned": Attack(
+        "a test's value drowned in 3 MB that the function prints", "def norm(v):\n    print('x' * 3_000_000)\n    return -1.0",
     ),
     "helper_redefined": Attack(
         "the course's helper redefined", "points = lambda: []\ndef norm(v):\n    globals()['points'] = points\n    return -1.0"
@@ -285,6 +304,31 @@ ATTACKS: dict[str, Attack] = {
         "            if stat.S_ISSOCK(os.fstat(number).st_mode) and number < 5:\n"
         "                os.write(number, struct.pack('<BI16s', 2, 1, bytes(16)) + b'T')\n        except OSError: pass\n"
         "    return -1.0",
+        only=("ours",),
+    ),
+    "task_left": Attack(
+        "a task left in the event loop, which replaces numpy's tests while a test waits",
+        "import asyncio\nimport numpy as np\nasync def later():\n    while True:\n"
+        "        np.testing.assert_allclose = np.isclose = lambda *a, **k: True\n        await asyncio.sleep(0)\n"
+        "asyncio.get_event_loop().create_task(later())\n" + WRONG,
+    ),
+    "limit_pretended": Attack(
+        "the test ended by the sandbox's own exception for time that is up",
+        "from autograder.sandbox.guest.answers import TimeLimitExceeded\ndef norm(v): raise TimeLimitExceeded('up')",
+        only=("ours",),
+    ),
+    "tests_called": Attack(
+        "the tests' own functions called, and their names asked for, over the socket between the two processes",
+        "def norm(v):\n    import gc\n    for found in [one for one in gc.get_objects() if type(one).__name__ == 'Peer']:\n"
+        "        for number in range(9):\n            try: tell(repr(found.call(number, (v,), {})))\n"
+        "            except BaseException: pass\n        for name in ('_ref', 'points', 'In'):\n"
+        "            try: tell(repr(found.value(name)))\n            except BaseException: pass\n    return -1.0",
+        only=("ours",),
+    ),
+    "array_announced": Attack(
+        "an array handed to the tests as text of a thousand million letters",
+        "import numpy as np, autograder.sandbox.guest.crossing as c\n"
+        "c._pack_array = lambda array: ('a', 'U1000000000', np.zeros(1))\ndef norm(v): return np.zeros(1)",
         only=("ours",),
     ),
     # ---- marks, by the gradebook
@@ -393,12 +437,29 @@ ATTACKS: dict[str, Attack] = {
     "class_stopped": Attack(
         "a test cell pasted twice, so that nobody after it is graded", change=_twice, only=NBGRADER_LIKE
     ),
+    "no_time": Attack(
+        "a timestamp whose arithmetic fails, so that nobody after it is graded", folder=_no_time, earlier=WRONG,
+        only=NBGRADER_LIKE,
+    ),
     "notebook_cut": Attack("a notebook cut short, for the grader to stumble over", folder=_without_text, only=NBGRADER_LIKE),
     "memory": Attack(
         "one and a half gigabytes kept",
         "held = []\nfor number in range(15): held.append(bytearray(b'x') * (100 * 2**20))\ntell(PROOF)\n",
     ),
     "flood": Attack("40 MB printed, for the gradebook's disk", "sys.stdout.write('x' * 40_000_000)\n", only=NBGRADER_LIKE),
+    "notes": Attack(
+        "an exception with 50 MB of notes, for the same", only=NBGRADER_LIKE,
+        code="def norm(v):\n    error = ValueError('wrong')\n    error.__notes__ = ['x' * 10**6] * 50\n    raise error",
+    ),
+    "empty_lines": Attack(
+        "a million empty lines shown, each a line of the file", only=NBGRADER_LIKE,
+        code="from IPython.display import display\ndisplay({'text/plain': '\\n' * 1_000_000}, raw=True)\n",
+    ),
+    "html_that_grows": Attack(
+        "50 kB of HTML that a parser mends into 50 MB", only=NBGRADER_LIKE, feedback=True,
+        code="from IPython.display import display, HTML\n"
+        "display(HTML(''.join(f'<p><b id={number}>' for number in range(4000))))\n",
+    ),
     "endless": Attack(
         "a loop that nothing interrupts",
         "def norm(v):\n    while 0 in v:\n        try: sum(range(10**5))\n        except BaseException: pass\n    return -1.0",
