@@ -86,11 +86,17 @@ def feedback(
     from autograder import feedback as pages
 
     paths: list[str] = []
-    count = 0
-    for count, path in enumerate(pages.pages(opened(course), assignment, students=student or None), 1):  # noqa: B007
+    count, of = 0, opened(course)
+    for count, path in enumerate(pages.pages(of, assignment, students=student or None), 1):  # noqa: B007
         paths += [str(path)] * as_json
     if as_json:
         print(json.dumps(paths))
     else:
         pages_are = "1 page" if count == 1 else f"{count} pages"
         console_for(as_json).print(f"{pages_are} under {course / 'feedback'}", highlight=False, markup=False)
+    now = set(of.students("autograded", assignment))
+    for one in of.students("feedback", assignment):
+        if one not in now and (not student or one in student):
+            place = of.path("feedback", one, assignment)
+            said = f"{place}: pages of an earlier submission, which is graded no more; do not hand them out"
+            console_for(as_json).print(said, highlight=False, markup=False, soft_wrap=True)

@@ -90,6 +90,8 @@ def marks(
     console = console_for(as_json)
     for made in _tables(sheet):
         console.print(made)
+    if not sheet.rows and csv is None:
+        _nobody(sheet, console)
     if csv is not None:
         _write(sheet, csv, console)
     if as_json:
@@ -125,7 +127,16 @@ def _write(sheet: Sheet, path: Path, console: Console) -> None:
     with replaced(path) as file:
         exporting.write_csv(sheet, text := TextIOWrapper(file, "utf-8", newline=""))
         text.detach()
-    console.print(f"{path}: {len(sheet.rows)} students, {sheet.available:g} points", highlight=False, markup=False)
+    count = len(sheet.rows)
+    students = "1 student" if count == 1 else f"{count} students"
+    console.print(f"{path}: {students}, {sheet.available:g} points", highlight=False, markup=False)
+    if not count:
+        _nobody(sheet, console)
+
+
+def _nobody(sheet: Sheet, console: Console) -> None:
+    said = f"Nobody has marks of {sheet.assignment} yet; grade it first: directrix grade {sheet.assignment}"
+    console.print(said, highlight=False, markup=False)
 
 
 def _tables(sheet: Sheet) -> Iterator[Table]:

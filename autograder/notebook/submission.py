@@ -235,9 +235,8 @@ def parse(data: bytes) -> dict[str, Any]:
     try:
         notebook: Any = json.loads(data)
     except UnicodeDecodeError:
-        raise SubmissionError(
-            "the notebook is no text in UTF-8; perhaps another kind of file was renamed, or an editor wrote it anew"
-        ) from None
+        said = "the notebook is no text in UTF-8; perhaps another kind of file was renamed, or it was saved in another encoding"
+        raise SubmissionError(said) from None
     except json.JSONDecodeError as error:
         begins = error.doc.strip()[:16]
         if not begins:

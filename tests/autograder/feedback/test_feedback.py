@@ -3,11 +3,13 @@
 import base64
 import importlib
 import json
+import shutil
 import time
 
 import pytest
 
 from autograder import feedback, fleet
+from autograder.cli import grading
 from autograder.errors import CourseError
 from autograder.feedback.cells import code_html
 from autograder.feedback.formula import mathml
@@ -266,6 +268,24 @@ def test_a_notebook_without_a_page_is_named_on_the_page_of_the_other(ordinary):
     assert not (folder / "two.html").exists()
     assert "<b>two</b> was not handed in under that name: 0 of 1 points." in ada.read_text()
     assert "<b>two</b> could not be read: 0 of 1 points. Ask your instructor." in bob.read_text()
+
+
+def test_pages_of_a_submission_that_was_taken_away_are_named(ordinary, capsys):
+    """They are not removed: whoever did so may have had another reason."""
+    for student in ("ada", "bob"):
+        for step in ("autograded", "feedback"):
+            (ordinary.folder / step / student / "ps1").mkdir(parents=True)
+        shutil.copy(ordinary.folder / "release/ps1/two.ipynb", ordinary.folder / "autograded" / student / "ps1")
+    grading.feedback("ps1", ordinary.folder, student=None, as_json=False)
+    assert capsys.readouterr().out.splitlines() == [f"2 pages under {ordinary.folder}/feedback"]
+    shutil.rmtree(ordinary.folder / "autograded" / "bob")
+    grading.feedback("ps1", ordinary.folder, student=None, as_json=False)
+    place = ordinary.folder / "feedback/bob/ps1"
+    assert capsys.readouterr().out.splitlines() == [
+        f"1 page under {ordinary.folder}/feedback",
+        f"{place}: pages of an earlier submission, which is graded no more; do not hand them out",
+    ]
+    assert (place / "two.html").is_file()
 
 
 def test_a_card_and_its_figure_are_on_the_page_and_json_cannot_leave_its_element(surfaces):

@@ -107,6 +107,17 @@ def test_an_assignment_that_nobody_handed_in_has_an_empty_table(ordinary):
     assert json.loads(out.getvalue()) == {"assignment": "ps1", "rows": []}
 
 
+@pytest.mark.parametrize(("count", "said"), [(0, ": 0 students, 16.5 points"), (1, ": 1 student, 16.5 points")])
+def test_how_many_are_in_the_file_is_said_in_words(ordinary, capsys, tmp_path, count, said):
+    with ordinary.course().gradebook() as book:
+        book.write(book.assignment("ps1"), [Record("ada", None, {})] * count)
+    path = tmp_path / "marks.csv"
+    reading.export("ps1", ordinary.folder, csv=path, as_json=False)
+    wanted = [f"{path}{said}", *["Nobody has marks of ps1 yet; grade it first: directrix grade ps1"] * (count == 0)]
+    assert capsys.readouterr().out.splitlines() == wanted
+    assert len(path.read_text().splitlines()) == 1 + count
+
+
 def test_feedback_reads_fifty_at_a_time_and_a_single_page_one_student(large, asked):
     released = (large.folder / "release/ps1/two.ipynb").read_bytes()
     for student in STUDENTS[:70]:

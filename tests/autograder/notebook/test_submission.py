@@ -133,6 +133,10 @@ def test_a_notebook_parses():
     ("data", "said"),
     [
         (b"", "the file is empty"),
+        (
+            '{"cells": "Gr\xf6\xdfe"}'.encode("latin-1"),
+            "no text in UTF-8; perhaps another kind of file was renamed, or it was saved",
+        ),
         (b"<!DOCTYPE html><html>Log in</html>", "begins with '<!DOCTYPE html><'; perhaps another kind of file"),
         (json.dumps(NOTEBOOK)[:-3].encode(), "ends in the middle"),
         (b'{"nbformat": 4, "cells": [{"source": "def f', "ends in the middle"),
