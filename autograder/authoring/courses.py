@@ -58,14 +58,33 @@ def new_course(folder: Path, names: tuple[str, ...] = ()) -> list[catalogue.Assi
     Raises
     ------
     CourseError
-        If the folder exists and is not empty; nothing in it is touched.
+        If the folder exists and is not empty; nothing in it is touched. What is stopped in the middle leaves no half a course.
     """
     shipped = catalogue.shipped()
-    chosen = [shipped.assignment(name) for name in names] or list(shipped.assignments)
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+    chosen = [shipped.assignment(name) for name in dict.fromkeys(names)] or list(shipped.assignments)
+    if folder.exists() and not folder.is_dir():
+        raise CourseError(f"{folder} is a file; choose a new folder for the course")
+    if folder.exists() and any(folder.iterdir()):
         raise CourseError(f"{folder} exists and is not empty; choose a new folder for the course")
-    folder.mkdir(parents=True, exist_ok=True)
-    course_id = "".join(letter if letter.isalnum() else "-" for letter in folder.resolve().name) or "surfaces"
+    place = folder if folder.exists() else folder.with_name(f".directrix-{secrets.token_hex(8)}")
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(folder)) from error
+    try:
+        _fill(place, folder.resolve().name, chosen)
+        if place != folder:
+            place.rename(folder)
+    except BaseException:
+        for part in list(place.iterdir()) if place == folder else [place]:
+            shutil.rmtree(part, ignore_errors=True) if part.is_dir() else part.unlink()
+        raise
+    return chosen
+
+
+def _fill(folder: Path, name: str, chosen: list[catalogue.Assignment]) -> None:
+    """Write the files of a course into a folder."""
+    course_id = "".join(letter if letter.isalnum() else "-" for letter in name) or "surfaces"
     (folder / "nbgrader_config.py").write_text(CONFIG.format(course_id=course_id), "utf-8")
     (folder / "README.md").write_text(README.format(course_id=course_id), "utf-8")
     private = folder / ".directrix"
@@ -74,7 +93,6 @@ def new_course(folder: Path, names: tuple[str, ...] = ()) -> list[catalogue.Assi
     (private / "secret").write_text(secrets.token_hex(32) + "\n", "ascii")
     for assignment in chosen:
         source.write(assignment, folder / "source" / assignment.name)
-    return chosen
 
 
 def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
@@ -106,7 +124,10 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     with _quiet("traitlets"), _tools_on_path():
         result = NbGraderAPI(config=config).generate_assignment(name, force=True, create=True)
     if not result["success"]:
-        raise CourseError(f"nbgrader could not release {name}: {_said(result.get('log') or result.get('error') or '')}")
+        said = _said(result.get("log") or result.get("error") or "")
+        if said.endswith("Canceled"):  # nbgrader's word for Ctrl-C
+            raise KeyboardInterrupt
+        raise CourseError(f"nbgrader could not release {name}: {said}")
     released = course / "release" / name
     if own is not None and with_exercises:
         _put_beside(own, released / catalogue.BESIDE / own.folder.name)

@@ -100,6 +100,17 @@ def test_windows_line_ends_and_the_first_format_with_cells_are_released(made):
     path.write_bytes(before)
 
 
+def test_ctrl_c_in_the_middle_of_a_release_is_no_refusal(made, monkeypatch):
+    """nbgrader catches it and writes a line into its log."""
+
+    def interrupted(*given):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("autograder.bridge.release.faults", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        authoring.release(made, "A1")
+
+
 def test_a_configuration_that_cannot_be_read_is_a_plain_sentence(made):
     config = made / "nbgrader_config.py"
     before = config.read_text()

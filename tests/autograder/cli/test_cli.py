@@ -9,12 +9,14 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import nbformat
 import pytest
 
 from autograder import authoring, catalogue
 from autograder.cli.course import lab
+from autograder.errors import CourseError
 from autograder.notebook import source
 
 VERBS = [
@@ -202,6 +204,32 @@ def test_new_makes_a_course_and_refuses_to_touch_a_folder_that_is_not_empty(tmp_
     assert again.returncode == 1
     assert "is not empty" in again.stderr
     assert not (course / "source" / "A2").exists()
+
+
+@pytest.mark.parametrize("there", [False, True])
+def test_a_course_that_was_stopped_in_the_making_leaves_nothing(tmp_path, monkeypatch, there):
+    """So the same command makes it; a folder that was there before is there and empty."""
+    folder = tmp_path / "course"
+    if there:
+        folder.mkdir()
+    with monkeypatch.context() as patch:
+        written = []
+
+        def stopped(assignment, place):
+            written.append(place)
+            source.write(assignment, place)
+            if len(written) == 2:
+                raise KeyboardInterrupt
+
+        patch.setattr("autograder.authoring.courses.source", SimpleNamespace(write=stopped))
+        with pytest.raises(KeyboardInterrupt):
+            authoring.new_course(folder)
+    assert [path.name for path in tmp_path.rglob("*")] == ["course"] * there
+    made = authoring.new_course(folder, ("A1", "A1"))
+    assert [one.name for one in made] == ["A1"]
+    (tmp_path / "file").touch()
+    with pytest.raises(CourseError, match="is a file; choose a new folder"):
+        authoring.new_course(tmp_path / "file")
 
 
 def test_a_workbook_has_every_notebook_and_chapter_and_keeps_the_readers_work(tmp_path):
