@@ -62,6 +62,10 @@ def ask_all(targets: Sequence[Target], call: Callable[..., Any]) -> list[Asked]:
     decided = any(target.hidden for target in targets)
     ahead: dict[tuple[Asked, str], Answer] = {}
 
+    def ask_ahead(planned: list[tuple[Asked, str]]) -> None:
+        answers = ask_in_turn(call, [_arguments(place, name) for place, name in planned], whole=whole)
+        ahead.update(zip(planned, answers, strict=False))
+
     def put(place: Asked, name: str) -> Answer:
         answer = ahead.pop((place, name), None)
         if answer is None:
@@ -84,13 +88,13 @@ def ask_all(targets: Sequence[Target], call: Callable[..., Any]) -> list[Asked]:
         return place.target.hidden or place is first or not decided
 
     try:
+        ask_ahead([(asked[0], name) for name in _forms(asked[0], every_form=every_form(asked[0]))])
         for place in asked:
             _ask_one(place, put, put_singles, every_form=every_form(place))
             if place is asked[0] and _fits(place):
                 planned = [(one, name) for one in asked[1:] for name in _forms(one, every_form=every_form(one))]
                 planned += [(first, name) for name in _more_forms(first)] if first is not None else []
-                answers = ask_in_turn(call, [_arguments(one, name) for one, name in planned], whole=whole)
-                ahead.update(zip(planned, answers, strict=False))
+                ask_ahead(planned)
         if first is not None:
             for name in _more_forms(first):
                 put(first, name)

@@ -10,7 +10,7 @@ import pytest
 from autograder import catalogue, messages
 from autograder.errors import CallFailed, SandboxError
 from autograder.notebook import kernel, limit, safe
-from autograder.notebook.marks import CellRun, judged, mark, partial
+from autograder.notebook.marks import CellRun, judged, mark, partial, scored
 from autograder.notebook.master import Master, MasterCell
 from autograder.notebook.rebuild import rebuild
 from autograder.notebook.run import ENDED, MAX_RESTARTS, run
@@ -119,6 +119,9 @@ class Scripted:
     def call(self, name, arguments):
         raise CallFailed("timeout", english.cpu_time(english.CALL, 1.0))
 
+    def call_all(self, name, sets, *, deadline):
+        return [CallFailed("timeout", english.cpu_time(english.CALL, 1.0))]
+
     def files(self):
         return {}
 
@@ -166,6 +169,7 @@ def tried(monkeypatch):
     runs = (None, CellRun("judged", verdict))
     yield " ".join(judged(one, 2.0).note for one in runs) + mark(code(""), task("t", "ok"), None).note
     yield " ".join(partial(shown, 2.0).note for shown in (None, "[1]", "nan", "7"))
+    yield partial("[1]", 2.0, number=True).note + scored([], 2.0, number=True).note
     yield from gone()
     yield from from_a_kernel()
     yield safe.text("x" * 20, 10)
