@@ -21,6 +21,7 @@ from autograder.whole import replaced
 
 # nbgrader compares the first to know whether its feedback is up to date; to release feedback it needs the second too.
 BESIDE = ("timestamp.txt", "submission_secret.txt")
+MAX_GRADED = 200_000_000  # bytes of a graded notebook
 MAX_IMAGE, MAX_IMAGES = 4_000_000, 32_000_000  # bytes of one, of all on a page
 BATCH = 50  # students whose marks are read at a time
 
@@ -163,7 +164,7 @@ def _student(course: Course, row: AssignmentRow, sheets: Sheets, student: str, h
 
 def _read(path: Path) -> Mapping[str, Any]:
     try:
-        return parse(read_file(path, 200_000_000))
+        return parse(read_file(path, MAX_GRADED), containers=MAX_GRADED)
     except SubmissionError as error:
         raise CourseError(f"{path} cannot be read: {error}; grade it again with --force") from None
 

@@ -25,6 +25,7 @@ from autograder.sandbox.session import plain_name
 
 IGNORE = (".ipynb_checkpoints", "*.pyc", "__pycache__", "feedback")  # nbgrader's own default
 MAX_DEPTH = 12
+MAX_CONTAINERS = 2_000_000
 # formgrader writes ids into its pages as they are
 PLAIN_ID = re.compile(r"[^\x00-\x1f\x7f<>&\"'`\\\ud800-\udfff]{1,128}")
 NO_ID = "is no student's id: that has up to 128 letters, digits, blanks and signs, but none of < > & \" ' ` \\"
@@ -224,14 +225,16 @@ def harmless(path: str) -> bool:
     return plain and parts[0] != FILE and not any(part.endswith(".ipynb") for part in parts)
 
 
-def parse(data: bytes) -> dict[str, Any]:
-    """The JSON of a submitted notebook, in nbformat 4.
+def parse(data: bytes, *, containers: int = MAX_CONTAINERS) -> dict[str, Any]:
+    """The JSON of a submitted notebook, in nbformat 4, with so many lists and objects in it at most.
 
     Raises
     ------
     SubmissionError
         Saying what is wrong with it, in words that a learner can act on.
     """
+    if data.count(b"[") + data.count(b"{") > containers:  # each takes 60 bytes and more once it is read
+        raise SubmissionError(f"the notebook has more than {containers} lists and objects in it")
     try:
         notebook: Any = json.loads(data)
     except UnicodeDecodeError:

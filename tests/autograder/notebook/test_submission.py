@@ -148,6 +148,7 @@ def test_a_notebook_parses():
         (b'{"nbformat": 9, "cells": []}', "nbformat 9"),
         (b"[" * 200_000, "nested too deeply"),
         (b'{"nbformat": 4, "x": ' + b"9" * 10_000 + b"}", "absurd length"),
+        (b'{"nbformat": 4, "cells": [], "x": [' + b"[]," * 2_000_000 + b"0]}", "more than 2000000 lists"),
     ],
 )
 def test_what_is_no_notebook_says_what_is_wrong(data, said):
