@@ -24,11 +24,15 @@ class Shown(Protocol):
     ended: Any
 
 
-def sources(rebuilt: Rebuilt, runs: Sequence[CellRun | None]) -> list[str | None]:
-    """What the kernel runs: every code cell that was run, but for the judged ones."""
+def sources(rebuilt: Rebuilt, runs: Sequence[CellRun | None], apart: frozenset[str]) -> list[str | None]:
+    """What the kernel runs: every code cell that was run, but for the judged ones, and for tests that run apart.
+
+    The learner's code could read those in the kernel and show them, hidden tests too.
+    """
+    elsewhere = [mine is not None and mine.name in apart for mine in rebuilt.masters]
     return [
-        cell["source"] if run is not None and run.status != "judged" else None
-        for cell, run in zip(rebuilt.cells, runs, strict=True)
+        cell["source"] if run is not None and run.status != "judged" and not away else None
+        for cell, run, away in zip(rebuilt.cells, runs, elsewhere, strict=True)
     ]
 
 

@@ -149,7 +149,7 @@ def _in_a_kernel(rebuilt: Rebuilt, ran: Ran, apart: Apart) -> None:
     """Show what a real kernel shows, and keep the files that it left."""
     assert apart.kernel is not None
     try:
-        shown = apart.kernel(kernel.sources(rebuilt, ran.cells))
+        shown = apart.kernel(kernel.sources(rebuilt, ran.cells, apart.script.apart))
     except SandboxError as error:
         ran.faults.append(f"the notebook could not be run in a kernel: {error}")
         kernel.without_marks(rebuilt, ran.cells, apart.script.apart)

@@ -93,10 +93,27 @@ def test_tests_that_run_apart_keep_their_marks(ordinary):
     ordinary.configure('c.Sandbox.engine = "jupyter"\n')
     ordinary.hand_in("ada", {"one": RIGHT})
     ordinary.hand_in("eve", {"one": {**RIGHT, "square": FORGED}})
+    ordinary.hand_in("sly", {"one": _and_reads_the_cells})
     report = fleet.grade(ordinary.course(), "ps1")
     points = {student.student: {cell.name: cell.points for cell in student.cells} for student in report.students}
     assert (points["ada"]["test_square"], points["ada"]["test_half"]) == (2, 3)
     assert (points["eve"]["test_square"], points["eve"]["test_half"]) == (0, 3)
+    read = json.loads((ordinary.folder / "autograded/sly/ps1/one.ipynb").read_text())["cells"][-1]["outputs"][0]["text"]
+    assert "def square" in "".join(read)
+    assert "assert" not in "".join(read)  # the learner's kernel has not seen them
+
+
+def _and_reads_the_cells(notebook):
+    notebook["cells"].append(
+        {
+            "cell_type": "code",
+            "id": "sly",
+            "metadata": {},
+            "source": "print(len(In), *In)",
+            "outputs": [],
+            "execution_count": None,
+        }
+    )
 
 
 def test_exercises_are_judged(surfaces):
