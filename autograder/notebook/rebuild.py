@@ -21,6 +21,7 @@ from autograder.notebook.master import Known, Master, MasterCell, checksum
 
 MAX_CELLS = 5_000
 MAX_SOURCE = 1_000_000
+MAX_PICTURES = 48_000_000  # characters of pasted pictures in all; a submission's own file has at most 32 million
 _ID = re.compile(r"[A-Za-z0-9_-]{1,64}")
 _KERNEL = re.compile(r"[\w .()+\[\]:-]{1,100}")
 
@@ -84,6 +85,7 @@ def rebuild(
         cells.append(_cell(draft, mine, master, keep_outputs=keep_outputs))
         masters.append(mine)
         known.append(_known(draft, mine, master))
+    _bound_pictures(cells, notes)
     built = Rebuilt(_notebook(cells, submitted, master), masters, known, notes)
     if add_missing:
         _add_missing(built, master, notification() if missing is None else missing)
@@ -165,6 +167,17 @@ def _cell(draft: _Draft, mine: MasterCell | None, master: Master, *, keep_output
     elif pictures:
         cell["attachments"] = pictures
     return cell
+
+
+def _bound_pictures(cells: list[dict[str, Any]], notes: list[Note]) -> None:
+    """Who repeats a text of the instructor's a thousand times gets its pasted pictures until that becomes too much."""
+    left = MAX_PICTURES
+    for cell in cells:
+        left -= sum(len(str(data)) for kinds in cell.get("attachments", {}).values() for data in kinds.values())
+        if left < 0:
+            cell.pop("attachments", None)
+    if left < 0:
+        notes.append(Note("", f"Pasted pictures beyond {MAX_PICTURES // 1_000_000} MB were left out."))
 
 
 def _notebook(cells: list[dict[str, Any]], submitted: Mapping[str, Any], master: Master) -> dict[str, Any]:

@@ -232,3 +232,14 @@ def test_seeds_differ_by_student_exercise_and_submission():
     seeds = {hidden_seed(b"s", *names) for names in (("a", "b", "c"), ("ab", "", "c"), ("a", "bc", ""), ("b", "b", "c"))}
     assert len(seeds) == 4
     assert hidden_seed(b"t", "a", "b", "c") not in seeds
+
+
+def test_an_instructors_picture_is_not_repeated_without_end(tmp_path, monkeypatch):
+    """Five thousand copies of one of the instructor's texts, each with its picture, would be a notebook of gigabytes."""
+    monkeypatch.setattr("autograder.notebook.rebuild.MAX_PICTURES", 3 * len(PNG))
+    told = {"cell_type": "markdown", "source": "see", "metadata": {}, "attachments": {"a.png": {"image/png": PNG}}}
+    released = tmp_path / "nb.ipynb"
+    released.write_text(json.dumps({"cells": [told]}))
+    made = built(*[cell("see", kind="markdown")] * 5, master=MASTER.beside(released))
+    assert ["attachments" in one for one in made.cells] == [True, True, True, False, False]
+    assert "Pasted pictures" in made.notes[0].text
