@@ -55,6 +55,7 @@ ALLOWED = {
     ("run.py", "Refused"): "the name of an error",
     ("run.py", "Error"): "the name of an error",
     ("rebuild.py", "The notebook has more than"): "for the instructor's report",
+    ("rebuild.py", "Pasted pictures beyond"): "for the instructor's report",
     ("rebuild.py", "of its cells could not be read"): "for the instructor's report",
     ("rebuild.py", "The cell was missing from the submission and was put back."): "for the instructor's report",
     ("book.py", "there are:"): "for the instructor",
