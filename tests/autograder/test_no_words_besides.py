@@ -60,6 +60,8 @@ ALLOWED = {
     ("rebuild.py", "The cell was missing from the submission and was put back."): "for the instructor's report",
     ("book.py", "there are:"): "for the instructor",
     ("book.py", "there is none yet"): "for the instructor",
+    ("book.py", "Did you mean"): "for the instructor",
+    ("book.py", "Release it first"): "for the instructor",
     ("personal.py", "directrix, numbers of one's own"): "hashed",
 }
 
