@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import functools
-import math
 from typing import Any
 
 import numpy as np
@@ -55,27 +53,18 @@ def _seen(points: Array, size: float) -> tuple[tuple[int, int], tuple[int, int]]
     The place of u first, on the line w = 0, then that of w, on u = 0; on the middle line where that edge is a point.
     """
     low, high = bounds(points)
-    centre = (low + high) / 2
-
-    @functools.cache
-    def seen(place: tuple[int, int]) -> tuple[Array, float]:
-        where = (points[place] - centre) / size
-        return where, where @ TOWARDS
-
-    def merit(pair: tuple[tuple[int, int], tuple[int, int]]) -> float:
-        (a, near_a), (b, near_b) = seen(pair[0]), seen(pair[1])
-        between = a - b
-        apart = between - (between @ TOWARDS) * TOWARDS
-        worth = near_a + near_b + 4 * min(math.sqrt(apart @ apart), 0.2)
-        return float(worth) if math.isfinite(worth) else -math.inf
-
     n, m = points.shape[:2]
     on_u, on_w = (
         middle if float(np.ptp(edge, axis=0).max()) < 0.02 * size else 0
-        for edge, middle in ((points[:, 0], m // 2), (points[0], n // 2))
+        for edge, middle in ((points[:, 0], (m - 1) // 2), (points[0], (n - 1) // 2))
     )
     along_u, along_w = (
         [(len(line) * part) // 8 for part in ((2, 1, 3, 4, 5, 6, 7) if _closed(line) else (2, 1, 3, 4))]
         for line in (points[:, on_u], points[on_w])
     )
-    return max((((i, on_u), (on_w, j)) for i in along_u for j in along_w), key=merit)
+    a, b = (((places - (low + high) / 2) / size) for places in (points[along_u, on_u], points[on_w, along_w]))
+    between = a[:, None] - b[None, :]  # each place of u against each of w
+    apart = between - (between @ TOWARDS)[..., None] * TOWARDS
+    worth = (a @ TOWARDS)[:, None] + (b @ TOWARDS)[None, :] + 4 * np.minimum(np.sqrt((apart * apart).sum(axis=-1)), 0.2)
+    i, j = divmod(int(np.where(np.isfinite(worth), worth, -np.inf).argmax()), len(along_w))
+    return (along_u[i], on_u), (on_w, along_w[j])

@@ -85,15 +85,22 @@ def sample(f: Callable[..., Any], *parameters: Array) -> Array:
 
 def grid_normals(points: Array) -> Array:
     """Unit normals of a sampled surface (n, m, 3) by differences; (0, 0, 0) where they vanish, as at a pole."""
-    along_u = np.gradient(points, axis=0) if len(points) > 1 else np.zeros_like(points)
-    along_w = np.gradient(points, axis=1) if points.shape[1] > 1 else np.zeros_like(points)
-    # By coordinates: three whole arrays take a third of the time of as many products of three numbers as there are points.
-    a, b = np.moveaxis(along_u, -1, 0), np.moveaxis(along_w, -1, 0)
+    rows = np.ascontiguousarray(np.moveaxis(points, -1, 0))  # a coordinate an array: a third of the time of rows of three
+    a, b = _differences(rows), _differences(rows.swapaxes(1, 2)).swapaxes(1, 2)
     normals = np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
     length = _lengths(normals)
     with np.errstate(invalid="ignore", divide="ignore"):
         unit = np.where(length > 1e-9 * np.maximum(_lengths(a) * _lengths(b), 1e-300), normals / length, 0.0)
     return np.ascontiguousarray(np.moveaxis(unit, 0, -1))
+
+
+def _differences(rows: Array) -> Array:
+    """Along the second axis, central ones inside and one-sided ones at the ends, as by ``np.gradient``; 0 of a single place."""
+    found = np.zeros_like(rows)
+    if rows.shape[1] > 1:
+        found[:, 1:-1] = (rows[:, 2:] - rows[:, :-2]) / 2.0
+        found[:, 0], found[:, -1] = rows[:, 1] - rows[:, 0], rows[:, -1] - rows[:, -2]
+    return found
 
 
 def _lengths(rows: Array) -> Array:

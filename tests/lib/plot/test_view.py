@@ -150,6 +150,16 @@ def test_a_figure_stays_small(tube):
         view(tube, samples=500)
 
 
+@pytest.mark.parametrize("samples", [2, 3, 4])
+@pytest.mark.parametrize("form", [dx.Sphere(2), dx.Cone(0, 2, 3), dx.Torus(3, 1)], ids=["sphere", "cone", "torus"])
+def test_a_few_samples_are_enough(form, samples):
+    """Where an edge is a point, letters stand on the line beside it."""
+    figure = view(form, samples=samples)
+    assert figure.data[0].x.shape == (samples, samples)
+    words = [trace for trace in figure.data if trace.type == "scatter3d" and trace.mode == "text"]
+    assert [list(trace.text) for trace in words] == [["u", "w"]]
+
+
 def test_no_cloud_button():
     """The notebook renderer is told to leave plotly's upload button out."""
     import plotly.io as pio
