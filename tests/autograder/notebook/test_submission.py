@@ -8,6 +8,7 @@ import pytest
 
 from autograder.errors import SubmissionError
 from autograder.notebook.submission import Bounds, harmless, parse, read_file, read_folder
+from autograder.notebook.timestamps import handed_in
 
 
 def test_regular_files_are_read_with_their_paths(tmp_path):
@@ -173,6 +174,14 @@ def test_an_old_notebook_is_converted():
 def test_no_file_of_a_notebook_takes_the_place_of_a_notebook_or_the_time(path):
     assert not harmless(path)
     assert harmless("sub/timestamp.txt")
+
+
+@pytest.mark.parametrize("said", ["0001-01-01 00:00:00 UTC", "9999-12-31 23:59:59 UTC", "6" + "9" * 40 + "m15:00:00", "soon"])
+def test_a_time_at_the_end_of_the_calendar_is_no_date(said):
+    """In New York, formgrader's list of submissions fails for the whole class over one of the year 1."""
+    with pytest.raises(SubmissionError, match="no date"):
+        handed_in({"timestamp.txt": said.encode()})
+    assert handed_in({"timestamp.txt": b"1970-01-01 00:00:00 UTC"}).year == 1970
 
 
 def test_a_folder_in_the_place_of_the_time_is_left_out(tmp_path):
