@@ -19,7 +19,7 @@ import nh3
 from autograder.messages import say
 from autograder.notebook.shallow import shallow
 from autograder.notebook.told import told
-from autograder.sandbox.outputs import Drawn
+from autograder.sandbox.outputs import LARGEST, Drawn
 
 FIGURE = "application/vnd.plotly.v1+json"
 IMAGES = {"image/png": b"\x89PNG", "image/jpeg": b"\xff\xd8\xff", "image/gif": b"GIF8"}
@@ -229,8 +229,10 @@ def plain_json(value: Any) -> Any:
         return {text(str(key)): plain_json(part) for key, part in value.items()}
     if isinstance(value, list | tuple):
         return [plain_json(part) for part in value]
-    if value is None or isinstance(value, bool | int):
+    if value is None or isinstance(value, bool):
         return value
+    if isinstance(value, int):
+        return value if abs(value) <= LARGEST else None  # what is no float either stops whoever reckons with it
     raise TypeError(f"not JSON: {type(value).__name__}")
 
 

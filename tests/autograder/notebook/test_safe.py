@@ -123,6 +123,9 @@ def test_figures_are_data_and_layout_and_fetch_nothing():
     }
     clean = safe.figure(figure)
     assert clean == {"data": [{"type": "scatter3d", "x": [1.0, None, None], "text": "\ufffd"}], "layout": {"title": "t"}}
+    assert safe.figure({"data": [{"x": [10**400, 7]}], "layout": {"height": -(10**400)}}) == {
+        "data": [{"x": [None, 7]}], "layout": {"height": None},
+    }  # fmt: skip
     for kind in ("scattermapbox", "choropleth", "scattergeo", "densitymap"):
         assert safe.figure({"data": [{"type": kind}], "layout": {}}) is None
     for junk in (None, [], {"data": 7}, {"data": [7]}, {"data": [], "layout": 7}, {"data": [{"x": object()}], "layout": {}}):
