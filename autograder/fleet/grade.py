@@ -315,7 +315,7 @@ class _Run:
         try:
             submitted = read_folder(self._folder(student), ignore=self.course.ignore, bounds=self.course.bounds)
             then, now = _timestamp(place), submitted.handed_in
-        except SubmissionError:
+        except (SubmissionError, OSError):  # who grades it says why
             return None
         entry = self.journal.read(student)
         if entry is None and self.journal.begun(student):  # a grader was ended before it had replaced what lies there

@@ -1,5 +1,7 @@
 """Odd things handed in are named in the report, whatever they are; and an answer that was taken away has no marks."""
 
+import errno
+import importlib
 import json
 
 import pytest
@@ -90,3 +92,22 @@ def test_a_folder_of_a_notebooks_or_the_times_name_that_a_cell_makes_is_not_kept
     place = ordinary.folder / "autograded" / "ada" / "ps1"
     assert (place / "two.ipynb").is_file()
     assert (place / "timestamp.txt").is_file()
+
+
+def test_a_folder_that_a_network_disk_loses_is_one_students_fault_and_not_the_classs(ordinary, monkeypatch):
+    """The first to read it, when it was graded before, is the process that grades the class."""
+    ordinary.hand_in("ada", {"two": ADD})
+    ordinary.hand_in("eve", {"two": ADD})
+    fleet.grade(ordinary.course(), "ps1")
+    grading = importlib.import_module("autograder.fleet.grade")
+    read = grading.read_folder
+
+    def lost(folder, **options):
+        if folder.parent.name == "ada":
+            raise OSError(errno.ESTALE, "Stale file handle")
+        return read(folder, **options)
+
+    monkeypatch.setattr(grading, "read_folder", lost)
+    graded = fleet.grade(ordinary.course(), "ps1")
+    assert graded.faults == ("ada: the submission could not be read: Stale file handle",)
+    assert graded.student("eve").status == "unchanged"
