@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import logging
 import mimetypes
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path, PurePosixPath
@@ -22,6 +23,7 @@ from autograder.whole import replaced
 # nbgrader compares the first to know whether its feedback is up to date; to release feedback it needs the second too.
 BESIDE = ("timestamp.txt", "submission_secret.txt")
 MAX_GRADED = 200_000_000  # bytes of a graded notebook
+log = logging.getLogger(__name__)
 MAX_IMAGE, MAX_IMAGES = 4_000_000, 32_000_000  # bytes of one, of all on a page
 BATCH = 50  # students whose marks are read at a time
 
@@ -34,7 +36,8 @@ def write(course: Course, assignment: str, students: Iterable[str] | None = None
     Raises
     ------
     CourseError
-        If the assignment is unknown, nothing of it is graded, or a student is named who has nothing graded.
+        If the assignment is unknown, nothing of it is graded, or a student is named who has nothing graded. Where somebody's
+        pages cannot be written, all others are first.
     """
     return list(pages(course, assignment, students))
 
@@ -45,7 +48,7 @@ def pages(course: Course, assignment: str, students: Iterable[str] | None = None
     Raises
     ------
     CourseError
-        As :func:`write`, when the first page is asked for.
+        As :func:`write`, when the first page is asked for; and after the last one, where somebody's could not be written.
     """
     graded = course.students("autograded", assignment)
     named = graded if students is None else list(dict.fromkeys(students))
@@ -57,11 +60,22 @@ def pages(course: Course, assignment: str, students: Iterable[str] | None = None
     hidden = course_hidden(course)
     with course.gradebook() as book:
         row = book.assignment(assignment)
+        failures = []
         for start in range(0, len(chosen), BATCH):
             some = chosen[start : start + BATCH]
             sheets = Sheets(book, row, some)
             for student in some:
-                yield from _student(course, row, sheets, student, hidden)
+                try:
+                    yield from _student(course, row, sheets, student, hidden)
+                except OSError:  # a full disk, say: it will fail for the others too
+                    raise
+                except CourseError as error:
+                    failures.append(str(error))
+                except Exception as error:
+                    log.exception("the feedback of %s could not be written", student)
+                    failures.append(f"{student}: {error!r}")
+    if failures:
+        raise CourseError("all feedback is written but for: " + "; ".join(failures))
 
 
 def sheet(book: Gradebook, assignment: str, student: str, notebook: str, folder: Path) -> Sheet:

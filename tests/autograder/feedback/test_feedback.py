@@ -249,6 +249,23 @@ def test_pages_are_written_for_who_is_graded(ordinary):
         feedback.write(ordinary.course(), "ps1", ["eve"])
 
 
+def test_one_page_that_cannot_be_written_keeps_no_other_back(ordinary, monkeypatch, caplog):
+    for student in ("ada", "bob", "cyd", "dan"):
+        ordinary.hand_in(student, {"one": RIGHT, "two": {}})
+    fleet.grade(ordinary.course(), "ps1")
+    (ordinary.folder / "autograded/bob/ps1/one.ipynb").write_text("{", "utf-8")
+
+    def fails(notebook, sheet, **options):
+        return 1 / 0 if sheet.student == "cyd" else render(notebook, sheet, **options)
+
+    monkeypatch.setattr(importlib.import_module("autograder.feedback.write"), "render", fails)
+    told = r"but for: .*bob/ps1/one.ipynb cannot be read: .*; grade it again with --force; cyd: ZeroDivisionError"
+    with pytest.raises(CourseError, match=told):
+        feedback.write(ordinary.course(), "ps1")
+    assert sorted(path.parts[-3] for path in (ordinary.folder / "feedback").rglob("*.html")) == ["ada"] * 2 + ["dan"] * 2
+    assert "the feedback of cyd could not be written" in caplog.text
+
+
 def test_a_notebook_without_a_page_is_named_on_the_page_of_the_other(ordinary):
     """One was not handed in, one could not be read; the page of an earlier submission of it goes."""
     ordinary.hand_in("ada", {"one": RIGHT, "two": {}}, files={"submission_secret.txt": b"s3cret"})
