@@ -206,11 +206,16 @@ def _said(outputs: Sequence[dict[str, Any]], names: Sequence[str]) -> tuple[list
 
 
 def _worded(figure: Mapping[str, Any]) -> Mapping[str, Any]:
-    """A figure of a chapter, which is ours and keeps its frames; one without words for who cannot see it gets its legend's."""
+    """A figure of a chapter, which is ours, so that it keeps its frames and may be laid out for a phone; one without words for
+    who cannot see it gets its legend's.
+    """
     layout = figure.get("layout", {})
     meta = layout.get("meta") or {}
-    if not isinstance(meta, Mapping) or meta.get("alt"):
+    if not isinstance(meta, Mapping):
         return figure
+    meta = {**meta, "fit": True}
+    if meta.get("alt"):
+        return {**figure, "layout": {**layout, "meta": meta}}
     names = dict.fromkeys(trace["name"] for trace in figure.get("data", []) if trace.get("name"))
     words = say("site.drawing", names=listing(names)) if names else say("feedback.picture")
     return {**figure, "layout": {**layout, "meta": {**meta, "alt": words}}}

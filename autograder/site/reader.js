@@ -16,71 +16,15 @@
     });
   });
 
-  // What is changed in a figure is changed in its data, before it is drawn: that happens only once the page stands.
-  var room = document.querySelector("main > .cell").clientWidth; // of a picture; one in a closed answer has none yet
+  // A walk's figure is changed in its data, before it is drawn: that happens only once the page stands.
   function prepare(holder) {
-    var script = holder.querySelector("script"), narrow = window.matchMedia("(max-width: 30rem)").matches;
-    if (!narrow && script.textContent.indexOf('"sliders":[{') < 0) return;
-    var figure = JSON.parse(script.textContent), slider = (figure.layout.sliders || [])[0];
-    if (slider) unslide(figure.layout);
-    if (narrow) { fit(figure, room - 20); holder.classList.remove("wide"); }
-    if (slider) walk(holder, slider);
-    holder.style.minHeight = (figure.layout.height || 450) + "px";
+    var script = holder.querySelector("script");
+    if (script.textContent.indexOf('"sliders":[{') < 0) return;
+    var figure = JSON.parse(script.textContent), slider = figure.layout.sliders[0];
+    unslide(figure.layout);
+    walk(holder, slider);
+    holder.style.minHeight = figure.layout.height + "px";
     script.textContent = JSON.stringify(figure).replace(/</g, "\\u003c");
-  }
-
-  // On a phone two panels stand one above the other, since a reader compares them; a single scene is hardly higher than wide;
-  // and lines of words are broken, which plotly does not.
-  function fit(figure, room) {
-    var layout = figure.layout, margin = layout.margin = Object.assign({ t: 0, b: 0 }, layout.margin), panel = 0.78 * room;
-    var other = layout.scene2 || layout.xaxis2 || (layout.scene && layout.xaxis), flat = !layout.scene;
-    if (layout.title && layout.title.text) {
-      layout.title.text = broken(layout.title.text, / (?=\S)/, " ", room / 9);
-      margin.t += 8 + 20 * (layout.title.text.split("<br>").length - 1);
-      layout.title.y = 1;
-      layout.title.pad = { t: 22 };
-    }
-    if (flat && layout.showlegend !== false) {
-      layout.legend = Object.assign({}, layout.legend, { orientation: "h", x: 0, y: -0.04, xanchor: "left", yanchor: "top" });
-    }
-    (layout.annotations || []).forEach(function (note) {
-      if (!(note.y < 0) || flat) return; // the line of words below a scene
-      note.text = broken(note.text, /(?:&nbsp;){3}/, "&nbsp;&nbsp;&nbsp;", room / 7.5);
-      margin.b += 18 * (note.text.split("<br>").length - 1);
-    });
-    if (!other) { if (!flat) layout.height = Math.min(layout.height || 450, panel + margin.t + margin.b); return; }
-
-    var start = (other.domain.x || other.domain)[0], bar = layout.xaxis2 || (layout.scene2 && other.domain.x[1] < 0.95);
-    var gap = flat ? 80 : 34, whole = 2 * panel + gap, part = panel / whole, right = bar ? 0.84 : 1;
-    var buttons = (layout.updatemenus || []).length ? 34 : 0, above = [1 - part, 1], below = [0, part];
-    (layout.annotations || []).forEach(function (note) {
-      if (note.y < 0) { note.x = 0.5; note.xanchor = "center"; note.yshift = -buttons; return; }
-      var to = note.x < start ? above : below;
-      note.x = right / 2;
-      note.y = to[0] + note.y * part;
-    });
-    if (flat) {
-      layout.xaxis.domain = layout.xaxis2.domain = [0, right];
-      layout.yaxis.domain = above;
-      layout.yaxis2.domain = below;
-    } else layout.scene.domain = { x: [0, right], y: above };
-    if (layout.scene2) layout.scene2.domain = { x: [0, right], y: below };
-    else if (!flat) { layout.xaxis.domain = [0.15, 0.85]; layout.yaxis.domain = [0.24 * part, part]; }
-    figure.data.forEach(function (trace) {
-      if (bar && trace.colorbar) Object.assign(trace.colorbar, { x: right + 0.02, xanchor: "left", y: part / 2, len: 0.8 * part });
-    });
-    margin.b += buttons;
-    layout.height = whole + margin.t + margin.b;
-  }
-
-  // Pieces of a line, put together again on lines of so many letters.
-  function broken(text, between, glue, letters) {
-    var length = 0;
-    return text.split(between).reduce(function (before, piece) {
-      var more = piece.replace(/<[^>]*>/g, "").replace(/&\w+;/g, " ").length, fits = length + more + 3 <= letters;
-      length = fits && before ? length + more + 3 : more;
-      return before ? before + (fits ? glue : "<br>") + piece : piece;
-    }, "");
   }
 
   // The slider and the button that plotly draws cannot be reached by keyboard: a walk gets real ones in their place.

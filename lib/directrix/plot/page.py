@@ -3,6 +3,7 @@
     html = f"<head>{head()}</head><body>{fragment(figure)}{fragment(another)}</body>"
 
 Figures are drawn when they come near the window and taken away again when they are far, so that a page may hold any number.
+Ours are laid out anew for the narrow window of a phone.
 """
 
 from __future__ import annotations
@@ -67,8 +68,9 @@ def fragment(figure: Mapping[str, Any] | Any) -> str:
 
 
 def figures_js() -> str:
-    """The text of figures.js, which links cameras and draws fragments."""
-    return (LABEXTENSIONS / "directrix-figures" / "static" / "figures.js").read_text("utf-8")
+    """The texts of fitting.js, which lays figures out for a phone, and of figures.js, which links cameras and draws."""
+    static = LABEXTENSIONS / "directrix-figures" / "static"
+    return "\n".join((static / name).read_text("utf-8") for name in ("fitting.js", "figures.js"))
 
 
 @functools.cache

@@ -131,8 +131,10 @@ def camera(view: str, distance: float = 1.0, corner: tuple[float, float, float] 
 
 
 def layout(*, height: int, title: str | None = None, alt: str = "", link: tuple[str, ...] = ()) -> dict[str, Any]:
-    """What all pictures share. ``meta`` tells figures.js the words for who cannot see it, and which scenes turn together."""
-    meta: dict[str, Any] = {"alt": alt}
+    """What all pictures share. ``meta`` tells figures.js the words for who cannot see it, which scenes turn together, and that
+    the picture is ours: a page may lay it out anew on a phone.
+    """
+    meta: dict[str, Any] = {"alt": alt, "fit": True}
     if link:
         meta["link"] = list(link)
     shared: dict[str, Any] = {

@@ -67,10 +67,11 @@ def test_a_reader_guesses_by_keyboard_and_sees_the_answer_and_its_figure(opened,
 def test_two_scenes_stand_one_above_the_other_on_a_phone(opened, width, above):
     """Where they would stand side by side, half of a comparison were out of sight; elsewhere they stay side by side."""
     page = opened("01-lines.html", viewport={"width": width, "height": 700})
-    layout = page.evaluate("JSON.parse(document.querySelector('.directrix-figure script').textContent).layout")
-    left, right = layout["scene"]["domain"], layout["scene2"]["domain"]
-    assert (left["y"][0] > right["y"][1]) == (left["x"] == right["x"]) == above
     page.click("#unfold")
+    page.wait_for_selector(".js-plotly-plot .gl-container canvas", timeout=30_000)
+    domains = "(({scene, scene2}) => [scene.domain, scene2.domain])(document.querySelector('.js-plotly-plot').layout)"
+    left, right = page.evaluate(domains)
+    assert (left["y"][0] > right["y"][1]) == (left["x"] == right["x"]) == above
     assert page.evaluate("[...document.querySelectorAll('.outputs')].some(o => o.scrollWidth > o.clientWidth)") is False
 
 

@@ -3,6 +3,7 @@
  * layout.meta of a figure may say
  *   link: ["scene", "scene2"]   cameras of these scenes turn together
  *   alt:  "..."                 what the picture shows, for readers who cannot see it
+ *   fit:  true                  on a phone a static page may lay it out anew (fitting.js)
  *
  * In a static page this file also draws figures that are written as data,
  *   <div class="directrix-figure"><script type="application/vnd.plotly.v1+json">{...}</script></div>
@@ -160,12 +161,27 @@
     }) });
   }
 
+  function fitted(text, room) {
+    // The figure laid out for so much room, or null: it is not ours, or not as ours are.
+    try { return directrixFit(JSON.parse(text), room); } catch (trouble) { console.warn("drawn as it came:", trouble.message); return null; }
+  }
+
   function drawInView() {
-    var holders = document.querySelectorAll(".directrix-figure");
+    var holders = document.querySelectorAll(".directrix-figure"), phone = window.matchMedia("(max-width: 30rem)");
     if (!holders.length || !window.Plotly) return;
+    function lay(holder) {
+      // The figure as it is to be drawn here; its height is kept free, and what stands one above the other needs no scrolling.
+      var text = holder.querySelector("script").textContent, asItCame = holder._asItCame;
+      if (!asItCame) asItCame = holder._asItCame = { height: holder.style.minHeight, wide: holder.classList.contains("wide") };
+      if (phone.matches) holder.classList.remove("wide");  // it takes the room there is: that is what is asked for
+      var room = phone.matches ? holder.clientWidth : 0, figure = room ? fitted(text, room) : null;
+      holder.style.minHeight = figure ? figure.layout.height + "px" : asItCame.height;
+      holder.classList.toggle("wide", asItCame.wide && !figure);
+      return figure || JSON.parse(text);
+    }
     function draw(holder) {
       if (holder._drawn) return;
-      var text = holder.querySelector("script").textContent, figure = JSON.parse(text);
+      var figure = lay(holder);
       holder._drawn = document.createElement("div");
       holder.appendChild(holder._drawn);
       var dark = ground(holder), template = dark < 0.18 ? onDark(figure, dark) : null;
@@ -183,7 +199,20 @@
       // The page has changed its colours: what is drawn stands on the other ground now.
       holders.forEach(function (holder) { if (holder._drawn) { clear(holder); draw(holder); } });
     }
-    if (window.matchMedia) window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
+    var width = 0, timer = null;  // of the phone's window; 0 where it is no phone's
+    function turned() {
+      // A phone is held the other way: what was laid out for another room is laid out again. Its address bar changes no width.
+      var now = phone.matches ? document.documentElement.clientWidth : 0;
+      if (now === width) return;
+      width = now;
+      holders.forEach(function (holder) { if (holder._drawn) { clear(holder); draw(holder); } else lay(holder); });
+    }
+    window.addEventListener("resize", function () {
+      clearTimeout(timer);
+      timer = setTimeout(turned, 150);
+    });
+    turned();
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
     if (!window.IntersectionObserver) { holders.forEach(draw); return; }
     var near = new IntersectionObserver(function (seen) {
       seen.forEach(function (one) { if (one.isIntersecting) draw(one.target); });
