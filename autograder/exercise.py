@@ -69,7 +69,7 @@ class DataSet:
     blind: bool = False
     weight: float = 1.0
 
-    @property
+    @cached_property
     def says(self) -> str:
         """What it is like, in one line: the docstring of its function, or nothing."""
         return " ".join((inspect.getdoc(self.draw) or "").split())

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -205,12 +206,7 @@ def _case(finding: Finding, recognised: Recognised | None) -> Case:
     case = Case(target.name, tier, blind=target.drawn.blind, hidden=target.hidden, mistake=mistake)
     if target.hidden:
         return case
-    return Case(**{**vars_of(case), **_shown(finding), "note": _note(finding)})
-
-
-def vars_of(case: Case) -> dict[str, Any]:
-    """The fields of a case."""
-    return {name: getattr(case, name) for name in Case.__dataclass_fields__}
+    return replace(case, **_shown(finding), note=_note(finding))
 
 
 def _shown(finding: Finding) -> dict[str, Any]:

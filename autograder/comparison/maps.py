@@ -52,7 +52,8 @@ class Sampled:
     @property
     def identical(self) -> bool:
         """T0: equal up to the tolerance at every sample."""
-        return bool((self.deviations <= self.target.allowed).all())
+        worst = self.deviations.max()
+        return bool(worst <= self.target.rounding or worst <= self.target.allowed)
 
     @property
     def close(self) -> bool:
@@ -82,6 +83,8 @@ def agree(a: Array, b: Array, allowed: float) -> bool:
     """Whether both have the same shape and the same values; NaN agrees with NaN."""
     if a.shape != b.shape:
         return False
+    if (np.abs(a - b) <= allowed).all():  # as it is nearly always
+        return True
     with np.errstate(invalid="ignore"):
         return bool(((np.abs(a - b) <= allowed) | (np.isnan(a) & np.isnan(b)) | (a == b)).all())
 

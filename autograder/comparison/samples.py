@@ -74,7 +74,7 @@ class Samples:
 
     def columns(self, indices: NDArray[np.intp] | slice = slice(None)) -> tuple[NDArray[np.float64], ...]:
         """The parameters of some points as n read-only vectors."""
-        return tuple(read_only(self.points[indices, i].copy()) for i in range(self.dimension))
+        return tuple(read_only(column) for column in self.points[indices].T.copy())
 
     def open_mesh(self) -> tuple[NDArray[np.float64], ...]:
         """The axes of :attr:`mesh` as n arrays that broadcast against each other, (9, 1) and (1, 7)."""
@@ -120,8 +120,8 @@ def samples(n: int, rng: np.random.Generator | None = None, *, keep_grid: bool =
     on_grid, spread_out = count**n, SEQUENCE + n * len(FRACTIONS)
     points = np.empty((on_grid + spread_out, n))
     grid = points[:on_grid].reshape(*[count] * n, n)
-    for i, one in enumerate(np.ix_(*axes)):
-        grid[..., i] = one
+    for i, axis in enumerate(axes):
+        grid[..., i] = axis.reshape(-1, *[1] * (n - 1 - i))
     points[on_grid:] = low_discrepancy(n, spread_out, 0.5 if rng is None else rng.uniform(size=n))
     for i in range(n):
         first = on_grid + i * len(FRACTIONS)

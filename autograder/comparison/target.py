@@ -158,7 +158,12 @@ class Target:
     @cached_property
     def allowed(self) -> float:
         """The deviation that still counts as identical: the exercise's tolerance times D, and never less than rounding."""
-        return self.exercise.tolerance * self.size + ROUNDING * float(np.abs(self.values).max(initial=0.0))
+        return self.exercise.tolerance * self.size + self.rounding
+
+    @cached_property
+    def rounding(self) -> float:
+        """What rounding alone makes of the right values. Less than ``allowed``, and found without the size."""
+        return ROUNDING * float(np.abs(self.values).max(initial=0.0))
 
     @cached_property
     def data_scale(self) -> float:

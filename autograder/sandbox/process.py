@@ -51,7 +51,7 @@ class Process:
         self.limits, self.level = limits, level
         self.max_rss = 0
         self._link, self._report, self._pidfd = link, report, pidfd
-        self._rest = b""
+        self._rest = bytearray()  # what has arrived and is not taken yet
         self._link.setblocking(False)
         self._cpu = 0.0
         self._stopped: Ended | None = None
@@ -85,10 +85,10 @@ class Process:
 
     def post(self, kind: int, request: tuple[Any, ...], action: Action, peer: int | None = None) -> bytes:
         """Send one request, with a descriptor if one is given; returns the exchange by which to take the answer."""
-        try:
-            body = wire.encode(request, depth=RESULT_DEPTH)
-        except WireError as error:
-            raise SandboxError(f"{error} cannot be sent to a notebook") from None
+        return self.post_encoded(kind, encoded(request), action, peer)
+
+    def post_encoded(self, kind: int, body: bytes, action: Action, peer: int | None = None) -> bytes:
+        """Send one request that is in binary form already (:func:`encoded`)."""
         exchange = secrets.token_bytes(16)
         data = wire.frame(kind, exchange, body)
         if peer is not None:
@@ -105,6 +105,13 @@ class Process:
         if answered != wire.DONE or name != exchange:
             raise WireError("an answer to another question")
         return wire.decode(answer, depth=RESULT_DEPTH, items=action.items, raw=action.raw)
+
+    def arrived(self, action: Action) -> bool:
+        """Whether an answer is there already, or what can be none, so that :meth:`take` will not wait."""
+        try:
+            return self._missing(action) <= 0
+        except WireError:
+            return True
 
     def kill(self) -> dict[str, Any] | None:
         """End it, and return the zygote's report (None if the zygote is gone too)."""
@@ -134,51 +141,58 @@ class Process:
             self._pidfd = -1
 
     def _send(self, data: bytes, action: Action) -> None:
-        watch = _Watch(self.cpu + action.cpu, time.monotonic() + action.wall)
-        view = memoryview(data)
-        self._poll.register(self._link, select.POLLOUT)
+        view, watch = memoryview(data), None
         while view:
-            self._within(watch, action)
             try:
                 view = view[self._link.send(view) :]
             except BlockingIOError:
-                self._poll.poll(watch.pause(self.cpu) * 1000)
+                watch = watch or self._watch(action, select.POLLOUT)
+                self._within(watch, action)
+                self._poll.poll(watch.pause(self._cpu) * 1000)
             except OSError:
                 self._gone(action)
 
     def _frame(self, action: Action, beside: Beside | None = None) -> tuple[int, bytes, bytes]:
-        """One whole frame: kind, exchange, body."""
-        watch = _Watch(self.cpu + action.cpu, time.monotonic() + action.wall, beside)
-        self._poll.register(self._link, select.POLLIN)
-        data = self._read(wire.HEADER.size, watch, action, self._rest)
-        kind, length, exchange = wire.header(data[: wire.HEADER.size], action.most)
-        whole = self._read(wire.HEADER.size + length, watch, action, data)
+        """One whole frame: kind, exchange, body. What came too early is met by the next question, and is no answer to it."""
+        watch = None
+        while (missing := self._missing(action)) > 0:
+            watch = watch or self._watch(action, select.POLLIN, beside)
+            self._receive(missing, watch, action)
+        kind, length, exchange = wire.header(self._rest, action.most)
         end = wire.HEADER.size + length
-        self._rest = whole[end:]  # what came too early is met by the next question, and is no answer to it
-        return kind, exchange, whole[wire.HEADER.size : end]
+        body = bytes(memoryview(self._rest)[wire.HEADER.size : end])
+        del self._rest[:end]
+        return kind, exchange, body
 
-    def _read(self, count: int, watch: _Watch, action: Action, data: bytes = b"") -> bytes:
-        """At least ``count`` bytes, beginning with ``data``; memory grows only with what has arrived."""
-        read = bytearray(data)
-        while len(read) < count:
-            self._within(watch, action)
-            ready = [descriptor for descriptor, _ in self._poll.poll(watch.pause(self._cpu) * 1000)]
-            if self._link.fileno() not in ready:
-                if ready:
-                    self._drain_or_gone(action)
-                continue
-            try:
-                part = self._link.recv(min(count - len(read), 2**20) if read else 2**16)
-            except BlockingIOError:
-                continue
-            except OSError:
-                part = b""
-            if not part:
-                self._gone(action)
-            read += part
-            if len(part) < 512 and len(read) < count:
-                time.sleep(0.001)  # a child that drips bytes must not keep us busy
-        return bytes(read)
+    def _missing(self, action: Action) -> int:
+        """How many bytes have still to arrive, at least, until there is a whole frame."""
+        size = wire.HEADER.size - len(self._rest)
+        return size if size > 0 else size + wire.header(self._rest, action.most)[1]
+
+    def _receive(self, missing: int, watch: _Watch, action: Action) -> None:
+        """Wait for more; memory grows only with what has arrived."""
+        self._within(watch, action)
+        ready = [descriptor for descriptor, _ in self._poll.poll(watch.pause(self._cpu) * 1000)]
+        if self._link.fileno() not in ready:
+            if ready:
+                self._drain_or_gone(action)
+            return
+        try:
+            part = self._link.recv(max(2**16, min(missing, 2**20)))
+        except BlockingIOError:
+            return
+        except OSError:
+            part = b""
+        if not part:
+            self._gone(action)
+        self._rest += part
+        if len(part) < 512 and len(part) < missing:
+            time.sleep(0.001)  # a child that drips bytes must not keep us busy
+
+    def _watch(self, action: Action, event: int, beside: Beside | None = None) -> _Watch:
+        """The deadlines of an exchange from now on, to be met by the socket's being ready for this."""
+        self._poll.register(self._link, event)
+        return _Watch(self.cpu + action.cpu, time.monotonic() + action.wall, beside)
 
     def _drain_or_gone(self, action: Action) -> None:
         """The process has ended: what it sent before may still be waiting."""
@@ -223,6 +237,14 @@ class Process:
         if number == signal.SIGKILL and self.level == "A":  # nobody inside can do that to the first process of a namespace
             raise SandboxError("the notebook's process was killed from outside, perhaps because the machine ran out of memory")
         raise Over(Ended("died", messages.died(action.what, number, os.WEXITSTATUS(status))))
+
+
+def encoded(value: Any, depth: int = RESULT_DEPTH) -> bytes:
+    """What is to be sent, in binary form; SandboxError where it has none."""
+    try:
+        return wire.encode(value, depth=depth)
+    except WireError as error:
+        raise SandboxError(f"{error} cannot be sent to a notebook") from None
 
 
 class Beside:

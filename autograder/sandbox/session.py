@@ -10,12 +10,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import TracebackType
 from typing import Any, Literal, TypeVar
 
-import numpy as np
-
 from autograder.errors import CallFailed, SandboxError
 from autograder.sandbox import messages, outputs, wire
 from autograder.sandbox.policy import CellResult, CellStatus, Ended, Limits, Usage
-from autograder.sandbox.process import Action, Beside, Over, Process
+from autograder.sandbox.process import RESULT_DEPTH, Action, Beside, Over, Process, encoded
 from autograder.sandbox.wire import Value, WireError
 
 ROOM = 4 * 2**20  # of a frame beyond the text it shows: tracebacks, names, framing
@@ -168,21 +166,24 @@ class Session:
         """
         limits = limits or self.limits
         answers: list[Value | CallFailed] = []
-        for some in _posted_together(sets):
+        for some in _posted_together([encoded(tuple(arguments), RESULT_DEPTH - 1) for arguments in sets]):
             exchange, before = b"", math.inf
+            action: Action | None = None
             for _ in some:
-                action = self._action(messages.CALL, limits.call_cpu, limits, limits.answer + ROOM)
-                # The child is ahead of us, so this call may have begun while we still took the answer to the one before.
-                self._action_began, before = min(before, self._action_began), self._action_began
-                if self.ended is None and time.monotonic() > deadline:
-                    self._process.kill()
-                    self.ended = Ended("timeout", messages.wall_time(action.what, action.wall), "wall")
-                if self.ended is not None:
-                    return [*answers, CallFailed("died", self.ended.message)]
+                if action is None or not self._process.arrived(action):
+                    action = self._action(messages.CALL, limits.call_cpu, limits, limits.answer + ROOM)
+                    # The child is ahead of us, so this call may have begun while we still took the answer to the one before.
+                    self._action_began, before = min(before, self._action_began), self._action_began
+                    if self.ended is None and time.monotonic() > deadline:
+                        self._process.kill()
+                        self.ended = Ended("timeout", messages.wall_time(action.what, action.wall), "wall")
+                    if self.ended is not None:
+                        return [*answers, CallFailed("died", self.ended.message)]
                 try:
                     if not exchange:
-                        request = (name, action.cpu, action.wall, limits.answer, *map(tuple, some))
-                        exchange = self._guarded(self._process.post, wire.CALLS, request, action)
+                        about = map(encoded, (name, action.cpu, action.wall, limits.answer))
+                        body = wire.row([*about, *some])
+                        exchange = self._guarded(self._process.post_encoded, wire.CALLS, body, action)
                     answers.append(self._answer(self._guarded(self._process.take, exchange, action), action))
                 except Over as over:
                     return [*answers, CallFailed(over.ended.kind, over.ended.message)]
@@ -320,19 +321,16 @@ def _checked_cell(answer: Any, limits: Limits) -> tuple[CellStatus, int, list[An
     return answer[0], number, shown, changed
 
 
-def _posted_together(sets: Sequence[Sequence[Value]]) -> Iterator[list[Sequence[Value]]]:
+def _posted_together(sets: Sequence[bytes]) -> Iterator[list[bytes]]:
     """The sets in order, in groups that are sent in one message each."""
-    group: list[Sequence[Value]] = []
+    group: list[bytes] = []
     size = 0
-    for arguments in sets:
-        length = sum(one.nbytes + 64 if isinstance(one, np.ndarray) else 64 for one in arguments)
-        if not all(isinstance(one, np.ndarray | int | float | str | None) for one in arguments):
-            length = TOGETHER  # curves and tuples go alone
-        if group and size + length > TOGETHER:
+    for one in sets:
+        if group and size + len(one) > TOGETHER:
             yield group
             group, size = [], 0
-        group.append(arguments)
-        size += length
+        group.append(one)
+        size += len(one)
     if group:
         yield group
 

@@ -30,8 +30,9 @@ def turn(t: Array, derivative: int = 0) -> tuple[Array, Array]:
     quarter = np.rint(4 * np.asarray(t, dtype=np.float64))
     rest = 2 * pi * (t - quarter / 4)  # within an eighth of a turn, where cos and sin lose nothing
     cos, sin = np.cos(rest), np.sin(rest)
-    which = np.mod(quarter + derivative, 4)
-    odd, past = which % 2 == 1, which >= 2
+    turned = quarter + derivative
+    which = turned - 4 * np.floor(turned / 4)  # the remainder: np.mod takes five times as long
+    odd, past = (which == 1) | (which == 3), which >= 2
     c, s = np.where(odd, -sin, cos), np.where(odd, cos, sin)
     scale = (2 * pi) ** derivative
     return np.where(past, -c, c) * scale + 0.0, np.where(past, -s, s) * scale + 0.0

@@ -16,7 +16,7 @@ import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from types import FrameType
+from types import FrameType, TracebackType
 from typing import Any, NoReturn
 
 import numpy as np
@@ -124,7 +124,7 @@ class Server:
     def cell(self, source: str, cpu: float, wall: float, output: int, outputs: int) -> tuple[Any, ...]:
         """Run a cell: (status, its number, outputs, updates of earlier displays)."""
         try:
-            with _timed(cpu, wall):
+            with Timed(cpu, wall):
                 status = self.shell.run(source, output, outputs)
         except TimeLimitExceeded:  # it fell due after the cell, while its outputs were gathered
             status = "timeout"
@@ -133,20 +133,21 @@ class Server:
     def calls_in_turn(self, name: str, cpu: float, wall: float, limit: int, *sets: tuple[Any, ...]) -> Iterator[bytes]:
         """Call a function of the notebook with one set of arguments after the other, until one call ends so that no later one
         could answer. Each gives an answer in binary form: of (True, what it returned) or of (False, how it failed...)."""
+        timed = Timed(cpu, wall)
         for arguments in sets:
-            body, kind = self.call(name, arguments, cpu, wall, limit)
+            body, kind = self.call(name, arguments, timed, limit)
             yield body
             if kind in wire.FATAL:
                 return
 
-    def call(self, name: str, arguments: tuple[Any, ...], cpu: float, wall: float, limit: int) -> tuple[bytes, str]:
+    def call(self, name: str, arguments: tuple[Any, ...], timed: Timed, limit: int) -> tuple[bytes, str]:
         """One such call: its answer, and the kind of its failure or nothing."""
         self.calls += 1
         _reseed(self.seed, self.calls)
         body = b""
         with self.shell.silence(), answers.failures(self.shell) as failure:
             function = answers.find(self.shell.user_ns, name)
-            with _timed(cpu, wall):
+            with timed:
                 value = function(*arguments)
             answer = (True, plainly(value))
             if (count := wire.count(answer)) > wire.ITEMS:
@@ -176,7 +177,7 @@ class Server:
                 if within > 1:  # a call back to a call: the time of the first one is running
                     yield
                     return
-                with _timed(max(left, 0.01), wall):
+                with Timed(max(left, 0.01), wall):
                     yield
             finally:
                 within -= 1
@@ -192,7 +193,7 @@ class Server:
         peer, namespace = self.peer, self.shell.user_ns
         peer.lost.clear()
         try:
-            with _timed(cpu, wall), warnings.catch_warnings():
+            with Timed(cpu, wall), warnings.catch_warnings():
                 for name in names:
                     namespace.pop(name, None)
                     try:
@@ -235,30 +236,32 @@ class Server:
                 yield relative, content
 
 
-@contextmanager
-def _timed(cpu: float, wall: float) -> Iterator[None]:
-    """Interrupt the code inside when its time is up, so that its traceback shows where it was.
+class Timed:
+    """Interrupts the code inside when its time is up, so that its traceback shows where it was; may be entered again.
 
     Code that ignores this (a loop in C, an ``except`` that catches everything) is ended from outside a little later.
     """
 
-    def stop(number: int, frame: FrameType | None) -> None:
+    def __init__(self, cpu: float, wall: float) -> None:
+        self.cpu, self.wall = cpu, wall
+        for number in (signal.SIGPROF, signal.SIGALRM):
+            signal.signal(number, self._stop)
+
+    def __enter__(self) -> None:
+        signal.setitimer(signal.ITIMER_PROF, self.cpu)
+        signal.setitimer(signal.ITIMER_REAL, self.wall)
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
+    def _stop(self, number: int, frame: FrameType | None) -> None:
         __tracebackhide__ = True
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.setitimer(signal.ITIMER_REAL, 0)
         if number == signal.SIGPROF:
-            raise TimeLimitExceeded(words.say("computing", seconds=f"{cpu:g}"))
-        raise TimeLimitExceeded(words.say("clock", seconds=f"{wall:g}"))
-
-    for number in (signal.SIGPROF, signal.SIGALRM):
-        signal.signal(number, stop)
-    signal.setitimer(signal.ITIMER_PROF, cpu)
-    signal.setitimer(signal.ITIMER_REAL, wall)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.setitimer(signal.ITIMER_REAL, 0)
+            raise TimeLimitExceeded(words.say("computing", seconds=f"{self.cpu:g}"))
+        raise TimeLimitExceeded(words.say("clock", seconds=f"{self.wall:g}"))
 
 
 def lay_out(files: tuple[tuple[str, bytes], ...]) -> None:

@@ -51,7 +51,7 @@ def rehearse(shell: Shell) -> None:
     child._reseed(0, 0)
     handlers = {number: signal.getsignal(number) for number in (signal.SIGPROF, signal.SIGALRM)}
     try:
-        with shell.rehearsing(), child._timed(60.0, 60.0):
+        with shell.rehearsing(), child.Timed(60.0, 60.0):
             for source in CELLS:
                 shell.rehearse(source)
             answer = ("ok", 1, *shell.shown())
