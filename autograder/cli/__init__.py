@@ -5,16 +5,8 @@ from __future__ import annotations
 import errno
 import gc
 import os
-import platform
 import sys
-from collections.abc import Callable
-from importlib.metadata import version
-from typing import Annotated
 
-import typer
-
-from autograder.cli import author, collecting, course, grading, machine, publishing, reading
-from autograder.cli.options import paragraphs
 from autograder.errors import DirectrixError
 
 # What the disk may refuse to anybody, and what to try.
@@ -33,45 +25,19 @@ DISK = {
 
 INTERRUPTED = 130  # as a shell counts: 128 and the number of the signal
 
-app = typer.Typer(
-    name="directrix",
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode="rich",
-    pretty_exceptions_enable=False,
-)
-
-
-def _version(asked: bool) -> None:
-    if asked:
-        print(f"directrix {version('directrix')}, Python {platform.python_version()}, nbgrader {version('nbgrader')}")
-        raise typer.Exit
-
-
-@app.callback()
-def everywhere(
-    _: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show what is installed, and exit.")
-    ] = False,
-) -> None:
-    """Learn surface modelling by writing the surfaces. Start with: directrix demo"""
-
-
-VERBS: tuple[Callable[..., None], ...] = (
-    course.demo, course.new, course.release, course.lab, grading.check, collecting.collect,
-    grading.grade, grading.feedback, reading.report, reading.similar, reading.marks, reading.export, publishing.site,
-    machine.doctor,
-)  # fmt: skip
-for verb in VERBS:
-    app.command(help=paragraphs(verb))(verb)
-app.add_typer(author.author, name="author")
-
 
 def main() -> None:
     """Run the command line; an error made on purpose is one plain line, not a traceback."""
     gc.set_threshold(10_000, 20, 100)  # loading makes many objects and no garbage; looking for some takes a quarter of the time
+    words = sys.argv[1:]
     try:
-        app(prog_name="directrix")
+        if words[:1] == ["grade"]:
+            from autograder.cli import beginning
+
+            beginning.begin(words[1:])
+        from autograder.cli.verbs import command
+
+        command(words)(prog_name="directrix")
     except DirectrixError as error:
         said = "".join(letter if letter.isprintable() or letter == "\n" else "\ufffd" for letter in str(error))
         print(f"directrix: {said}", file=sys.stderr)  # a name in it came from a student: it must not steer the terminal
@@ -92,4 +58,6 @@ def main() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or what is still unwritten fails again at the exit
         sys.exit(1)
     finally:
+        if "autograder.sandbox.ahead" in sys.modules:
+            sys.modules["autograder.sandbox.ahead"].drop()
         gc.freeze()  # the interpreter's end looks through all objects once more, for nothing

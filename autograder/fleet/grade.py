@@ -164,7 +164,7 @@ class _Run:
         if tasks:
             self.book.add_course(self.course.id)
             while tasks:
-                with self._plan() as plan:
+                with self._plan(shared=len(tasks) > 1) as plan:
                     if isinstance(workers, int):
                         plan, workers = preparing.fitted(plan, min(workers, len(tasks)))
                     tasks = self._work(plan, tasks, workers)
@@ -330,17 +330,19 @@ class _Run:
         return dataclasses.replace(report, status="unchanged", notes=notes)
 
     @contextlib.contextmanager
-    def _plan(self) -> Iterator[Plan]:
+    def _plan(self, *, shared: bool = True) -> Iterator[Plan]:
+        """``shared``: by several submissions, one of which will need what takes long to load; one alone may not."""
         course, exercises = self.course, self._posed()
         loading = threading.Thread(target=preparing.load_searching, daemon=True)
-        if exercises:
+        if exercises and shared:
             loading.start()
         draws = any(master.draws for master in self.masters.values())
         with opened(
             exercises.values(), course.packages, self.required, course.timeout, course.withhold, draws=draws, begun=self.begun
         ) as open_session:
             self.level = open_session.level
-            if exercises:
+            preparing.remember(course, self.row.name, open_session)
+            if exercises and shared:
                 loading.join()
             scripts = course.scripts(self.row, self.masters, open_session)
             self.shared = {f"{name}.ipynb: {cell}": why for name in scripts for cell, why in scripts[name].shared.items()}

@@ -9,7 +9,8 @@ import logging
 from autograder.course import Course
 from autograder.fleet import capacity
 from autograder.fleet.one import Plan
-from autograder.notebook.session import Begun, needs
+from autograder.notebook.session import Begun, Opener, needs
+from autograder.sandbox import ahead
 
 log = logging.getLogger(__name__)
 
@@ -20,6 +21,11 @@ def begun(course: Course, assignment: str, level: str | None) -> Begun:
     posed = [found for master in masters for name in master.checks if (found := course.exercise(name)) is not None]
     policy = needs(posed, course.packages, course.withhold, draws=any(master.draws for master in masters))
     return Begun(policy, level)
+
+
+def remember(course: Course, assignment: str, session: Opener) -> None:
+    """Leave a note of the sandbox that this assignment needs, for the next run."""
+    ahead.remember(ahead.note(course.room, assignment), session.box.policy, session.level)
 
 
 def fitted(plan: Plan, workers: int) -> tuple[Plan, int]:

@@ -7,15 +7,15 @@ import os
 import socket
 import stat
 import subprocess
-import tempfile
 import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Literal
+from typing import Literal
 
 from autograder.errors import IsolationError, SandboxError
-from autograder.sandbox.launcher import launch
+from autograder.sandbox import ahead
+from autograder.sandbox.launcher import Launched, launch
 from autograder.sandbox.policy import Limits, Policy
 from autograder.sandbox.process import Process
 from autograder.sandbox.session import Session
@@ -58,19 +58,16 @@ class Sandbox:
         self.policy = policy or Policy()
         self.level = level
         self._bubblewrap = bubblewrap
-        self._errors: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 (closed by close)
         self.ahead = False  # keep one process ready for the next notebook; for those who open one after the other
         self._ready: _Order | None = None
         self._sessions: set[Session] = set()
         self._lock = threading.Lock()
-        self._control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self._process, self._control, self._errors = self._launch()
         try:
-            self._start(theirs)
+            self._start()
         except BaseException:
             self.close()
             raise
-        finally:
-            theirs.close()
 
     def __enter__(self) -> Sandbox:
         return self
@@ -165,38 +162,43 @@ class Sandbox:
         if self._ready is not None:
             self._ready.cancel()
         self._control.close()
-        if hasattr(self, "_keeper"):
-            self._keeper.join(10)
-            if self._keeper.is_alive():
-                self._process.kill()
-                self._keeper.join()
+        self._keeper.join(10)
+        if self._keeper.is_alive():
+            self._process.kill()
+            self._keeper.join()
         self._errors.close()
 
-    def _start(self, theirs: socket.socket) -> None:
-        """Start the zygote and wait for its word.
+    def _launch(self) -> Launched:
+        """The zygote that was begun ahead if it is the right one, else a new one.
 
         It is started and awaited by a thread of its own: bubblewrap dies with the *thread* that started it
         (PR_SET_PDEATHSIG), and the thread that makes this sandbox may be a short-lived one.
         """
-        started = threading.Event()
-        failure: list[BaseException] = []
+        done = threading.Event()
+        launched: list[Launched | BaseException] = []
 
         def keep() -> None:
             try:
-                self._process = launch(self.policy, self.level, theirs.fileno(), self._errors, self._bubblewrap)
+                begun = ahead.taken(self.policy, self.level) if self._bubblewrap is None else None
+                zygote = begun or launch(self.policy, self.level, self._bubblewrap)
             except BaseException as error:
-                failure.append(error)
-                started.set()
+                launched.append(error)
                 return
-            started.set()
-            self._process.wait()
+            else:
+                launched.append(zygote)
+            finally:
+                done.set()
+            zygote.process.wait()
 
         self._keeper = threading.Thread(target=keep, name="sandbox", daemon=True)
         self._keeper.start()
-        started.wait()
-        if failure:
-            raise failure[0]
-        theirs.close()
+        done.wait()
+        if isinstance(launched[0], BaseException):
+            raise launched[0]
+        return launched[0]
+
+    def _start(self) -> None:
+        """Wait for the zygote's word, and try it."""
         self._control.settimeout(START_SECONDS)
         try:
             ready = self._control.recv(4096)

@@ -12,11 +12,13 @@ import json
 import os
 import platform
 import shutil
+import socket
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import IO
+from typing import IO, NamedTuple
 
 from autograder.errors import IsolationError
 from autograder.sandbox.guest.confine import SCRATCH, UID
@@ -53,16 +55,42 @@ def bubblewrap(which: str | None = None) -> str:
     )
 
 
-def launch(policy: Policy, level: str, control: int, errors: IO[bytes], which: str | None = None) -> subprocess.Popen[bytes]:
-    """Start the zygote; ``control`` is its end of the control socket, ``errors`` takes what it prints.
+class Launched(NamedTuple):
+    """A zygote on its way: its process, our end of its control socket, what it prints."""
+
+    process: subprocess.Popen[bytes]
+    control: socket.socket
+    errors: IO[bytes]
+
+    def end(self) -> None:
+        """End what nobody wants."""
+        self.process.kill()
+        self.process.wait()
+        self.control.close()
+        self.errors.close()
+
+
+def launch(policy: Policy, level: str, which: str | None = None) -> Launched:
+    """Start a zygote. It ends with the thread that calls this.
 
     Raises
     ------
     IsolationError
         Where the machine cannot do it at all.
     """
-    seen = view(policy)
-    return enter(seen, lambda: options(seen, level), seen.command(control, level, policy), control, errors, which)
+    errors = tempfile.TemporaryFile()  # noqa: SIM115 (who has the zygote closes it)
+    control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    try:
+        seen = view(policy)
+        command = seen.command(theirs.fileno(), level, policy)
+        process = enter(seen, lambda: options(seen, level), command, theirs.fileno(), errors, which)
+    except BaseException:
+        control.close()
+        errors.close()
+        raise
+    finally:
+        theirs.close()
+    return Launched(process, control, errors)
 
 
 def enter(
