@@ -48,7 +48,7 @@ def figure_bundle(verdict: Verdict) -> dict[str, Any] | None:
 class Shared(dict[str, Any]):
     """A figure that many cards show, so that nobody changes it, with its JSON as it is written to a file."""
 
-    written: str = ""
+    written: bytes = b""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +94,7 @@ def _shared(verdict: Verdict) -> Shared | None:
             words=words,
         )
         shown = Shared({**validated(built), "config": dict(CONFIG)})
-        shown.written = json.dumps(shown, sort_keys=True, ensure_ascii=False, allow_nan=False)
+        shown.written = json.dumps(shown, sort_keys=True, ensure_ascii=False, allow_nan=False).encode("utf-8")
     _kept[key] = shown  # the newest last
     while len(_kept) > KEPT:
         del _kept[next(iter(_kept))]

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from autograder.messages import say
+from autograder.notebook.safe import Figure
 from autograder.sandbox.outputs import Drawn
 
 MOST_SHOWN = 32_000_000
@@ -74,6 +75,8 @@ def _size(value: Any) -> int:
             value.found["size"] = _size(dict(value))
         size: int = value.found["size"]
         return size
+    if type(value) is Figure and value.written:
+        return len(value.written)
     if type(value) is dict or isinstance(value, Mapping):
         size = 0
         for key, part in value.items():

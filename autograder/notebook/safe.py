@@ -164,7 +164,7 @@ def text(value: object, limit: int = MAX_TEXT) -> str:
 class Figure(dict[str, Any]):
     """A figure that passed, with its JSON as it is written to a file: whoever changes the figure must not use ``written``."""
 
-    written: str = ""
+    written: bytes = b""
 
 
 def figure(value: object) -> Figure | None:
@@ -187,7 +187,7 @@ def _figure(value: object) -> Figure | None:
         return None
     try:
         plain = Figure(plain_json({"data": value["data"], "layout": _layout(layout)}))
-        plain.written = json.dumps(plain, sort_keys=True, ensure_ascii=False, allow_nan=False)
+        plain.written = json.dumps(plain, sort_keys=True, ensure_ascii=False, allow_nan=False).encode("utf-8")
         size = len(plain.written) if plain.written.isascii() else len(json.dumps(plain, allow_nan=False))
     except (TypeError, ValueError, RecursionError):
         return None

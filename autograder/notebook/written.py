@@ -17,14 +17,14 @@ MANY_LINES, SHORT_LINE = 5000, 10  # lines of a text, characters of a line
 
 def dumps(notebook: Mapping[str, Any]) -> bytes:
     """The file of a valid nbformat-4 notebook: sorted keys, texts split into lines, one newline at the end."""
-    figures: dict[str, str] = {}
+    figures: dict[str, bytes] = {}
     split = {**notebook, "cells": [_cell(cell, figures) for cell in notebook["cells"]]}
     text = json.dumps(split, indent=1, sort_keys=True, separators=(",", ": "), ensure_ascii=False, allow_nan=False)
-    parts = []
+    parts, rest = [], text.encode("utf-8")
     for place, figure in figures.items():  # in the order of the cells, as in the text
-        before, _, text = text.partition(f'"{place}"')
+        before, _, rest = rest.partition(f'"{place}"'.encode())
         parts += [before, figure]
-    return "".join([*parts, text, "\n"]).encode("utf-8")
+    return b"".join([*parts, rest, b"\n"])
 
 
 def _lines(text: str) -> list[str] | str:
@@ -33,22 +33,24 @@ def _lines(text: str) -> list[str] | str:
     return lines if len(lines) <= MANY_LINES or len(text) >= SHORT_LINE * len(lines) else text
 
 
-def _cell(cell: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any]:
+def _cell(cell: Mapping[str, Any], figures: dict[str, bytes]) -> dict[str, Any]:
     split = {**cell, "source": _lines(cell["source"])}
     if "outputs" in cell:
         split["outputs"] = [_output(output, figures) for output in cell["outputs"]]
     return split
 
 
-def _output(output: Mapping[str, Any], figures: dict[str, str]) -> dict[str, Any]:
+def _output(output: Mapping[str, Any], figures: dict[str, bytes]) -> dict[str, Any]:
     if output["output_type"] == "stream":
         return {**output, "text": _lines(output["text"])}
     if "data" in output:
         data = {mime: _lines(value) if mime.startswith("text/") else value for mime, value in output["data"].items()}
         if isinstance(data.get(FIGURE), dict):
             place = secrets.token_hex(16)  # nothing that a learner wrote can be this
-            written = getattr(data[FIGURE], "written", "")  # where it was written already
-            figures[place] = written or json.dumps(data[FIGURE], sort_keys=True, ensure_ascii=False, allow_nan=False)
+            written: bytes = getattr(data[FIGURE], "written", b"")  # where it was written already
+            figures[place] = written or json.dumps(data[FIGURE], sort_keys=True, ensure_ascii=False, allow_nan=False).encode(
+                "utf-8"
+            )
             data[FIGURE] = place
         return {**output, "data": data}
     return dict(output)
