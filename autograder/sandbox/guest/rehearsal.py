@@ -40,7 +40,10 @@ FAILING = (
     "assert np.allclose(scaled([1, 2]), 1)",
     "scaled({})",
 )
-PLOT = "__import__('directrix.plot').plot.view(lambda u, w: u + w)"  # a traceback through the library reads its files
+PLOT = (  # a traceback through the library reads its files, and colours the functions on its way
+    "__import__('directrix.plot').plot.view(lambda u, w: u + w)",
+    "__import__('directrix.plot').plot.view(lambda u, w: 1 / 0)",
+)
 
 
 def rehearse(shell: Shell) -> None:
@@ -65,7 +68,7 @@ def failures(shell: Shell) -> Iterator[None]:
     """What fails in some notebooks, one cell at a step, and nothing is left of it in between: a traceback through a library
     parses whole files, and nobody should have to wait until that is done for all of them.
     """
-    plot = (PLOT,) if "directrix.plot" in sys.modules else ()
+    plot = PLOT if "directrix.plot" in sys.modules else ()
     for source in (*FAILING, *tracebacks.NUMPY, *plot):
         with _as_in_a_notebook(shell):
             shell.rehearse(CELLS[1])

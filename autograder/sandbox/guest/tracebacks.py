@@ -3,7 +3,8 @@
 IPython asks of each frame which module it is in; of a cell's, Python looks through all modules, twice, to say that it is in
 none. It colours a traceback with pygments: for each traceback a style is derived and turned into escape sequences, and for each
 frame of it a reader of Python is derived that changes nothing in the grammar and works all of it out again. Together that takes
-longer than the colouring itself. What comes out is the same, character for character.
+longer than the colouring itself. Of a library's function that a traceback passes through, all lines are coloured each time,
+its long docstring too. What comes out is the same, character for character.
 """
 
 from __future__ import annotations
@@ -20,12 +21,18 @@ NUMPY = (
     "__import__('numpy').allclose([1, 2], [1, 2, 3])",
     "__import__('numpy').stack([[1], [1, 2]])",
     "__import__('numpy').broadcast_arrays([1, 2], [1, 2, 3])",
+    "__import__('numpy').linalg.norm([None])",
+    "__import__('numpy').linalg.norm([[None]], axis=-1)",
+    "__import__('numpy').reshape([1, 2], (3, 4))",
+    "__import__('numpy').cross([1], [2])",
 )
+
+MOST_COLOURED = 500  # functions whose coloured lines are remembered
 
 
 def prepare() -> None:
     """Make the libraries keep what they work out; another version of one, which lacks a place where to, is left as it is."""
-    for keep in (_grammars, _styles, _escapes, _modules):
+    for keep in (_grammars, _styles, _escapes, _modules, _colours):
         with contextlib.suppress(ImportError, AttributeError):
             keep()
 
@@ -64,6 +71,26 @@ def _escapes() -> None:
         self.style_string = dict(found[key])
 
     formatter._setup_styles = _setup_styles
+
+
+def _colours() -> None:
+    """A function's lines are coloured once for each place in it where a traceback passes."""
+    core: Any = importlib.import_module("stack_data.core")
+    formatters: Any = importlib.import_module("pygments.formatters.terminal256")
+    colour, found = core._pygmented_with_ranges, {}
+
+    @functools.wraps(colour)
+    def _pygmented_with_ranges(formatter: Any, code: str, ranges: list[tuple[int, int]]) -> list[str]:
+        if type(formatter) is not formatters.Terminal256Formatter or set(formatter.options) - {"style"}:
+            return colour(formatter, code, ranges)  # type: ignore[no-any-return]
+        key = (formatter.style, code, tuple(ranges))
+        if key not in found:
+            if len(found) >= MOST_COLOURED:
+                return colour(formatter, code, ranges)  # type: ignore[no-any-return]
+            found[key] = colour(formatter, code, ranges)
+        return list(found[key])
+
+    core._pygmented_with_ranges = _pygmented_with_ranges
 
 
 def _modules() -> None:

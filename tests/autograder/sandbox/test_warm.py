@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -34,6 +36,44 @@ def test_a_traceback_takes_the_grammar_and_the_style_that_are_there(sandbox):
         "True",
         "False True",
     ]
+
+
+def test_a_function_is_coloured_once_for_each_place_in_it(sandbox):
+    with sandbox.open() as notebook:
+        result = notebook.run_cell(
+            "import stack_data.core as core, pygments.styles\n"
+            "from pygments.formatters.terminal256 import Terminal256Formatter as Terminal, TerminalTrueColorFormatter\n"
+            "style = core.style_with_executing_node(pygments.styles.get_style_by_name('default'), 'bg:ansiyellow')\n"
+            "stock, kept = core._pygmented_with_ranges.__wrapped__, core._pygmented_with_ranges\n"
+            "code = 'def f(x):\\n    \\'\\'\\'long words\\'\\'\\'\\n    return g(x) + 1'\n"
+            "for formatter in (Terminal(style=style), Terminal(style='vim'), TerminalTrueColorFormatter(style=style)):\n"
+            "    for ranges in ([], [(40, 44)], [(40, 48)], [(40, 44)]):\n"
+            "        first, again = kept(formatter, code, ranges), kept(formatter, code, ranges)\n"
+            "        print(first == again == stock(formatter, code, ranges), first is again)\n"
+            "        first.clear()\n"
+            "places = {tuple(kept(Terminal(style=style), code, [(n, n + 1)])) for n in range(40, 48)}\n"
+            "print(len(places) > 1)"
+        )
+    assert result.status == "ok", result.outputs
+    assert result.outputs[0]["text"].splitlines() == ["True False"] * 12 + ["True"]
+
+
+def test_tracebacks_through_rehearsed_functions_are_stock_ones(sandbox):
+    """The second of two tracebacks through one function is taken from the first; a place of its own is none of the other's."""
+    with sandbox.open() as notebook:
+        notebook.run_cell(
+            "import numpy as np\ndef g(x):\n    'words'\n    np.linalg.norm(x, axis=-1)\n    return np.reshape(x, 7)"
+        )
+        first, second, other = (notebook.run_cell(f"g({x})").outputs[0]["traceback"] for x in ("[[None]]", "[[None]]", "[[1]]"))
+        notebook.run_cell(
+            "import stack_data.core as core\ncore._pygmented_with_ranges = core._pygmented_with_ranges.__wrapped__"
+        )
+        stock, stock_other = (notebook.run_cell(f"g({x})").outputs[0]["traceback"] for x in ("[[None]]", "[[1]]"))
+    unnumbered = [[re.sub(r"In\[.*?\d+|ipython-input-\d+-\w+", "", line) for line in lines] for lines in (first, second, stock)]
+    assert unnumbered[0] == unnumbered[1] == unnumbered[2]
+    assert len(first) > 3
+    assert other[-1] == stock_other[-1] != first[-1]
+    assert other[3:] == stock_other[3:]
 
 
 def test_a_frame_of_a_cell_is_in_no_module(sandbox):
