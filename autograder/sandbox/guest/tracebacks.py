@@ -77,7 +77,8 @@ def _colours() -> None:
     """A function's lines are coloured once for each place in it where a traceback passes."""
     core: Any = importlib.import_module("stack_data.core")
     formatters: Any = importlib.import_module("pygments.formatters.terminal256")
-    colour, found = core._pygmented_with_ranges, {}
+    colour: Any = core._pygmented_with_ranges
+    found: dict[Any, list[str]] = {}
 
     @functools.wraps(colour)
     def _pygmented_with_ranges(formatter: Any, code: str, ranges: list[tuple[int, int]]) -> list[str]:
