@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from directrix import checks
 from directrix.errors import GeometryError
 from directrix.plot import palette, traces
+from directrix.plot.assembling import figure_of
 from directrix.plot.beside import Knots, closed_axes, further_curves, further_surfaces, knot_lines, knots_of, measured, net_of
 from directrix.plot.comparing import FARTHER, LINES, comparison, edges_and_lines, letters
 from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, size_of
@@ -311,15 +312,10 @@ def _name_of(f: Callable[..., Any]) -> str:
 
 
 def _figure(built: dict[str, Any]) -> Figure:
-    import plotly.graph_objects as go
     import plotly.io as pio
 
     # The notebook renderer takes its configuration from here; without it plotly.js offers to upload the figure.
     renderer = pio.renderers["plotly_mimetype"]
     renderer.config = {**(renderer.config or {}), **palette.CONFIG}
-    # Built from parts that the tests hold valid: checking each again takes as long as all of the drawing. What is changed in
-    # the figure later is checked as ever.
-    figure = go.Figure(built["data"], built["layout"], _validate=False)
-    for part in (figure, figure.layout, *figure.data):
-        part._validate = True
-    return figure
+    # Built from parts that the tests hold valid: checking each again takes as long as all of the drawing.
+    return figure_of(built["data"], built["layout"])

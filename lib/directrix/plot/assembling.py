@@ -1,0 +1,96 @@
+"""A plotly figure from plain dictionaries that are known to be right.
+
+plotly makes an object for every trace by asking each of its 75 or so properties whether it was given, and copies what it finds
+twice; for a picture of a surface that is more than half of all work. But a trace in a figure holds nothing itself: its
+properties are in a dictionary of the figure. So here the dictionaries are handed to the figure, and the traces are made as
+plotly makes those of a part that somebody asks for. Where a trial shows that another version of plotly keeps its figures in
+another way, it makes them itself.
+"""
+
+from __future__ import annotations
+
+import functools
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
+
+Part = dict[str, Any]
+
+
+def figure_of(traces: list[Part], layout: Part) -> Figure:
+    """The figure of valid traces, each of which tells its type, and of a valid layout, which tells its template.
+
+    The arrays in them become the figure's own. What is changed in the figure later is checked as ever.
+    """
+    make = _put_together if _keeps_dictionaries() else _by_plotly
+    return make(traces, layout)
+
+
+def _by_plotly(traces: list[Part], layout: Part) -> Figure:
+    import plotly.graph_objects as go
+
+    figure = go.Figure(traces, layout, _validate=False)
+    for part in (figure, figure.layout, *figure.data):
+        part._validate = True
+    return figure
+
+
+def _put_together(traces: list[Part], layout: Part) -> Figure:
+    import plotly.graph_objects as go
+
+    # Numbered parts, such as scene2, are objects of their own from the beginning: those plotly makes.
+    numbered = {name: part for name, part in layout.items() if name[-1].isdigit()}
+    figure: Any = go.Figure(layout={"template": layout["template"], **numbered}, _validate=False)
+    figure._layout = _sorted(layout, numbered) | {name: figure._layout[name] for name in numbered}
+    figure._data = [_sorted(trace, {"type"}) | {"type": trace["type"]} for trace in traces]
+    figure._data_defaults = [{} for _ in traces]
+    class_of = figure._data_validator.get_trace_class
+    figure._data_objs = [class_of(trace["type"])(_parent=figure) for trace in traces]
+    for index, trace in enumerate(figure._data_objs):
+        trace._trace_ind = index
+    figure._validate = figure._layout_obj._validate = True
+    return figure
+
+
+def _sorted(part: Part, without: Any) -> Part:
+    """A copy in the order in which plotly keeps the properties, down to the arrays; palettes are shared by many pictures."""
+    return {name: _copied(part[name]) for name in sorted(part) if name not in without and part[name] is not None}
+
+
+def _copied(value: Any) -> Any:
+    if type(value) is dict:
+        return {name: _copied(one) for name, one in value.items()}
+    if type(value) is list:
+        return [_copied(one) for one in value]
+    return value
+
+
+@functools.cache
+def _keeps_dictionaries() -> bool:
+    """Whether a figure that is put together has in it what plotly's own has."""
+    traces = [{"type": kind, "name": "a", "x": [0.0, 1.0], "hoverinfo": "skip"} for kind in ("scatter3d", "scatter", "surface")]
+    axis = {"range": [0, 1], "title": {"text": "x"}}
+    layout = {"template": {}, "paper_bgcolor": "red", "height": 300, "xaxis": axis, "scene2": {"xaxis": axis}, "meta": {"a": 1}}
+    try:
+        ours, theirs = (make(traces, layout) for make in (_put_together, _by_plotly))
+        return _inside(ours) == _inside(theirs)
+    except Exception:  # whatever it is that has gone from plotly
+        return False
+
+
+def _inside(figure: Any) -> Any:
+    """All that a figure and its parts keep, in order; of an object only its type."""
+    parts = (figure, figure.layout, *figure.data)
+    for trace, properties in zip(figure.data, figure._data, strict=True):
+        if trace.parent is not figure or trace._props is not properties:
+            raise TypeError("a trace does not take its properties from the figure")
+    return [[(name, _told(value)) for name, value in sorted(vars(part).items())] for part in parts]
+
+
+def _told(value: Any) -> Any:
+    if isinstance(value, dict):
+        return type(value), [(name, _told(one)) for name, one in value.items()]
+    if isinstance(value, list | tuple):
+        return type(value), [_told(one) for one in value]
+    return value if value is None or isinstance(value, str | int | float | set) else type(value)
