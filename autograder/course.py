@@ -23,7 +23,7 @@ import importlib
 import os
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,7 +36,7 @@ from autograder.exercise import Exercise
 from autograder.gradebook import AssignmentRow, Penalty
 from autograder.notebook import apart, secret, submission
 from autograder.notebook.apart import Script
-from autograder.notebook.master import Master
+from autograder.notebook.master import Master, given
 from autograder.notebook.rebuild import notification
 from autograder.notebook.session import Opener, Packages
 from autograder.sandbox import kernel
@@ -138,6 +138,10 @@ class Course:
     def masters(self, of: AssignmentRow) -> dict[str, Master]:
         """The instructor's copies of the notebooks, with what the released files say beside them."""
         return {name: notebook.master.beside(self.instructor_file(of.name, name)) for name, notebook in of.notebooks.items()}
+
+    def given(self, assignment: str, notebooks: Iterable[str]) -> tuple[tuple[str, ...], ...]:
+        """The code cells that all learners were given, by notebook: of the released files alone, which have no solution."""
+        return tuple(given(self.path("release", ".", assignment) / f"{name}.ipynb") for name in notebooks)
 
     def instructor_files(self, assignment: str) -> dict[str, bytes]:
         """Files of the assignment beside its notebooks, which overwrite the learner's (but for ``exclude_overwriting``)."""

@@ -338,8 +338,9 @@ class _Run:
             loading.start()
         draws = any(master.draws for master in self.masters.values())
         with opened(
-            exercises.values(), course.packages, self.required, course.timeout, course.withhold, draws=draws, begun=self.begun
-        ) as open_session:
+            exercises.values(), course.packages, self.required, course.timeout, course.withhold, draws=draws, begun=self.begun,
+            given=course.given(self.row.name, self.masters),
+        ) as open_session:  # fmt: skip
             self.level = open_session.level
             preparing.remember(course, self.row.name, open_session)
             if exercises and shared:

@@ -67,6 +67,7 @@ class Job:
     level: str
     timeout: float | None
     withhold: tuple[str, ...]
+    given: tuple[tuple[str, ...], ...] = field(repr=False)
 
     @classmethod
     def of(cls, course: Course, assignment: str, plan: Plan, posed: Mapping[str, Exercise]) -> Job:
@@ -81,7 +82,7 @@ class Job:
         return cls(
             f"directrix-{hashlib.sha256(words.encode()).hexdigest()[:16]}", build(), plan.rules, plan.masters,
             plan.instructor_files, plan.scripts, {name: folder.name for name, folder in folders.items()}, sources,
-            course.packages, plan.open_session.level, course.timeout, course.withhold,
+            course.packages, plan.open_session.level, course.timeout, course.withhold, course.given(assignment, plan.masters),
         )  # fmt: skip
 
 
@@ -132,7 +133,8 @@ class Grading(distributed.WorkerPlugin):  # type: ignore[misc]
         job = self.job
         self._sandbox = self._held.enter_context(contextlib.ExitStack())
         posed = self._exercises.values()
-        self._opener = self._sandbox.enter_context(opened(posed, job.packages, job.level, job.timeout, job.withhold))
+        opening = opened(posed, job.packages, job.level, job.timeout, job.withhold, given=job.given)
+        self._opener = self._sandbox.enter_context(opening)
         self._opener.box.ahead = True
 
     def grade(self, batch: list[Sent]) -> list[Landed]:

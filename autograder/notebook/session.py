@@ -88,11 +88,13 @@ def opened(
     *,
     draws: bool = True,
     begun: Begun | None = None,
+    given: Iterable[Sequence[str]] = (),
 ) -> Iterator[Opener]:
     """Start the sandbox of an assignment; yields what opens a session in it, given the files that the notebook finds.
 
     ``withhold`` names modules that test cells may import and learners may not; ``draws`` is as in :func:`needs`; ``begun`` is
-    a sandbox that starts already, and is taken if it is the right one.
+    a sandbox that starts already, and is taken if it is the right one; ``given`` are the code cells of each notebook as all
+    learners were given them, never as the instructor has them.
 
     ``level`` None requires A or, where a machine gives no namespaces to a notebook of its own, A-. Which one it is stands in
     every report. Sessions may be opened from any thread.
@@ -106,6 +108,8 @@ def opened(
     policy = needs(posed, packages, withheld, draws=draws)
     ready = begun.taken(policy, level) if begun is not None else None
     with ready or _sandbox(policy, level) as box:
+        for cells in given:
+            box.expect(cells)
         yield Opener(box, limits(timeout, exercises=bool(posed)), box.level, withheld)
 
 

@@ -243,8 +243,10 @@ class Shell(InteractiveShell):
         self.read: tuple[str, str] | None = None  # the source of the cell that is to be run, and what it is in Python
         self.plain: str | None = None  # the Python of a cell that awaits nothing
         super().__init__(**options)  # type: ignore[no-untyped-call]
-        compiler: Any = self.compile
-        self.input_transformer_manager = Plainly(compiler)
+        assert isinstance(self.compile, Compiler)
+        self.compiler = self.compile
+        self.compiler.transformers = lambda: self.ast_transformers
+        self.input_transformer_manager = Plainly(self.compiler)
 
     @classmethod
     def for_notebooks(cls) -> Shell:
@@ -354,7 +356,8 @@ class Shell(InteractiveShell):
     ) -> bool:
         """Whether a cell awaits something: IPython compiles it to find out. Nor is this worked out again."""
         plain, self.plain = self.plain, None
-        if plain is not None and plain == transformed_cell and preprocessing_exc_tuple is None:
+        cell = transformed_cell if preprocessing_exc_tuple is None else None
+        if cell is not None and (cell == plain or self.compiler.compile_ahead(cell, self.execution_count)):
             return False
         return super().should_run_async(
             raw_cell, transformed_cell=transformed_cell, preprocessing_exc_tuple=preprocessing_exc_tuple
@@ -381,6 +384,11 @@ class Shell(InteractiveShell):
             formatter.format(value)
         finally:
             self.recorder.silent = False
+
+    def expect(self, source: str, number: int) -> None:
+        """Read a cell that notebooks may hold, most likely with this number, so that each finds it read."""
+        self.input_transformer_manager.transform_cell(source)
+        self.compiler.keep(source, number)
 
     def rehearse(self, source: str) -> None:
         """Run a cell that leaves no trace of it; inside :meth:`rehearsing`."""
@@ -411,6 +419,7 @@ class Shell(InteractiveShell):
             self.displayhook._ = self.displayhook.__ = self.displayhook.___ = ""
             self.execution_count, self.last_execution_succeeded, self.last_execution_result = 1, True, None
             self.ran_into, self.told, self.read, self.plain = None, (None, {}), None, None
+            self.compiler.forget()
             self.recorder.begin(0, 0)
             for name in ("last_type", "last_value", "last_traceback", "last_exc"):
                 if hasattr(sys, name):
