@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import importlib.metadata
 import importlib.util
+import re
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -18,6 +19,8 @@ ALWAYS = ("numpy", "ipython")  # what running a notebook takes
 ALSO = {"plotly": ("nbformat",)}  # asked for at run time, by plotly's renderers
 WITHHELD = ("directrix", "autograder")
 NEVER = ("__pycache__", "bin", "..")
+FIELD = "Requires-Dist:"
+OF_EXTRA = re.compile(r"""\bextra\s*==\s*(["'])[^"']+\1""")  # only with an extra that is not asked for here
 
 
 @functools.cache
@@ -61,7 +64,12 @@ def _distribution(name: str, *, asked: bool) -> importlib.metadata.Distribution 
 
 
 def _required(distribution: importlib.metadata.Distribution) -> Iterable[str]:
-    for text in distribution.requires or ():
+    head, _, _ = (distribution.read_text("METADATA") or "").partition("\n\n")  # all of it takes an e-mail's reader long
+    said = [line.removeprefix(FIELD) for line in head.splitlines() if line.startswith(FIELD)]
+    for text in said if head else distribution.requires or ():
+        _, _, marker = text.partition(";")
+        if OF_EXTRA.search(marker) and " or " not in marker:
+            continue  # most are, and to read them in full takes longer than all else here
         requirement = Requirement(text)
         if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
             yield requirement.name
@@ -69,7 +77,8 @@ def _required(distribution: importlib.metadata.Distribution) -> Iterable[str]:
 
 def _top_level(distribution: importlib.metadata.Distribution) -> dict[str, Path]:
     """First parts of the paths that the distribution installed."""
-    names = {line.split(",")[0].split("/")[0].strip('"') for line in (distribution.read_text("RECORD") or "").splitlines()}
+    first = {line.partition("/")[0] for line in (distribution.read_text("RECORD") or "").splitlines()}
+    names = {part.partition(",")[0].strip('"') for part in first}
     root = Path(str(distribution.locate_file("")))
     found = {name: root / name for name in names if name and name not in NEVER and not name.endswith(".pth")}
     found = {name: path for name, path in found.items() if path.exists()}
