@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Literal
 
 from autograder.errors import IsolationError, SandboxError
-from autograder.sandbox import ahead
+from autograder.sandbox import ahead, bytecode
 from autograder.sandbox.launcher import Launched, launch
 from autograder.sandbox.policy import Limits, Policy
 from autograder.sandbox.process import Process
@@ -64,9 +64,9 @@ class Sandbox:
         self._ready: _Order | None = None
         self._sessions: set[Session] = set()
         self._lock = threading.Lock()
-        self._process, self._control, self._errors = self._launch()
+        self._process, self._control, self._errors, shown = self._launch()
         try:
-            self._start()
+            self._start(shown)
         except BaseException:
             self.close()
             raise
@@ -210,17 +210,18 @@ class Sandbox:
             raise launched[0]
         return launched[0]
 
-    def _start(self) -> None:
+    def _start(self, shown: Mapping[str, str]) -> None:
         """Wait for the zygote's word, and try it."""
         self._control.settimeout(START_SECONDS)
         try:
-            ready = self._control.recv(4096)
+            ready = self._control.recv(2**18)
         except OSError:
             ready = b""
         if not ready:
             raise IsolationError(self._why_not())
         self._control.settimeout(None)
         self._try_one()
+        bytecode.keep(json.loads(ready)["compiled"], shown)
 
     def _try_one(self) -> None:
         """A level is given only if a child has put up all its walls."""

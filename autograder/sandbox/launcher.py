@@ -56,11 +56,12 @@ def bubblewrap(which: str | None = None) -> str:
 
 
 class Launched(NamedTuple):
-    """A zygote on its way: its process, our end of its control socket, what it prints."""
+    """A zygote on its way: its process, our end of its control socket, what it prints, the folders that it is shown."""
 
     process: subprocess.Popen[bytes]
     control: socket.socket
     errors: IO[bytes]
+    shown: dict[str, str]  # by their places inside
 
     def end(self) -> None:
         """End what nobody wants."""
@@ -82,6 +83,7 @@ def launch(policy: Policy, level: str, which: str | None = None) -> Launched:
     control, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     try:
         seen = view(policy)
+        shown = {place: source for source, place in seen.binds if os.path.isdir(source)}
         command = seen.command(theirs.fileno(), level, policy)
         process = enter(seen, lambda: options(seen, level), command, theirs.fileno(), errors, which)
     except BaseException:
@@ -90,7 +92,7 @@ def launch(policy: Policy, level: str, which: str | None = None) -> Launched:
         raise
     finally:
         theirs.close()
-    return Launched(process, control, errors)
+    return Launched(process, control, errors, shown)
 
 
 def enter(

@@ -42,7 +42,7 @@ def main(arguments: str) -> None:
         )
     control = socket.socket(fileno=settings["control"])
     zygote = Zygote(control, settings["level"], settings["preload"])
-    control.send(json.dumps({"ready": True}).encode())
+    control.send(json.dumps({"ready": True, "compiled": _compiled()}).encode())
     zygote.serve()
     os._exit(0)  # there is nothing to put in order: what runs in here ends with this process
 
@@ -162,6 +162,12 @@ class Zygote:
             reporter.send(json.dumps(end).encode())
         if scratch != confine.SCRATCH:
             shutil.rmtree(scratch, ignore_errors=True)
+
+
+def _compiled() -> list[str]:
+    """The files of which there is no bytecode: they had to be compiled in here."""
+    specs = [spec for module in list(sys.modules.values()) if (spec := getattr(module, "__spec__", None)) is not None]
+    return [str(spec.origin) for spec in specs if spec.cached and not os.path.exists(spec.cached)]
 
 
 def _warm_up(shell: Shell, preload: list[str]) -> None:
