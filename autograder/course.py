@@ -124,6 +124,20 @@ class Course:
                 found.append(student)
         return sorted(found)
 
+    def misnamed(self, assignment: str) -> list[Path]:
+        """Folders handed in whose name is the assignment's but for capitals, spaces and signs, as ``a1`` for A1: nobody's work
+        is to be lost for that. Who has the right one too is left alone. Where a course's folders end otherwise than in the assignment, none are looked for.
+        """
+        place = self.path("submitted", "STUDENT", assignment)
+        if place.name != assignment or place.parent.name != "STUDENT":
+            return []
+        found = []
+        for student in sorted(place.parent.parent.glob("*")):
+            with contextlib.suppress(OSError):  # a file, a link to nowhere
+                if not (student / assignment).exists():
+                    found += [student / name for name in sorted(os.listdir(student)) if _bare(name) == _bare(assignment)]
+        return found
+
     def instructor_file(self, assignment: str, notebook: str) -> Path:
         """The released notebook of the instructor, else the source."""
         released = self.path("release", ".", assignment) / f"{notebook}.ipynb"
@@ -313,9 +327,18 @@ class Course:
     @property
     def room(self) -> Path:
         """The folder for our own records, readable by the instructor only."""
-        room = self.folder / secret.ROOM
-        room.mkdir(mode=0o700, exist_ok=True)
-        return room
+        self.records.mkdir(mode=0o700, exist_ok=True)
+        return self.records
+
+    @property
+    def records(self) -> Path:
+        """Where that folder is, or would be: for who only reads, from a disk that may be closed to writing."""
+        return self.folder / secret.ROOM
+
+
+def _bare(name: str) -> str:
+    """A name without capitals and with nothing between its letters."""
+    return "".join(filter(str.isalnum, name.casefold()))
 
 
 def _imported(given: Any, folder: Path) -> Callable[..., Any]:

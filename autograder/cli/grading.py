@@ -67,6 +67,9 @@ def grade(
         console.print(said, highlight=False, markup=False, soft_wrap=True)
     if as_json:
         graded.write_json(sys.stdout)
+    for folder in opened(course).misnamed(assignment):
+        said = f"{folder} was not graded: if it is {assignment}, rename it to {assignment}"
+        print(f"directrix: {report.plain(said)}", file=sys.stderr)
     for failure in graded.failures:
         print(f"directrix: {report.plain(failure)}", file=sys.stderr)
     if graded.failures:

@@ -29,10 +29,10 @@ def standing(course: Course, assignment: str) -> GradeReport:
         If the assignment is not in the gradebook.
     """
     with course.gradebook() as book:
-        row, journal = book.assignment(assignment), Journal(course.room, assignment)
+        row, journal = book.assignment(assignment), Journal(course.records, assignment)
         done = set(course.students("autograded", assignment))
         students = sorted(done.union(course.students("submitted", assignment)))
-        found, level, posed = Spool(course.room), "", set[str]()
+        found, level, posed = Spool(course.records), "", set[str]()
         for start in range(0, len(students), BATCH):
             entries = {student: journal.read(student) for student in students[start : start + BATCH]}
             reports = []

@@ -115,6 +115,16 @@ def test_grade_says_where_submissions_should_lie_if_there_is_none(surfaces):
     assert said.stdout.strip() == f"Nobody has handed in A1: submissions lie in {surfaces.folder}/submitted/STUDENT/A1"
 
 
+def test_grade_names_folders_that_are_nearly_the_assignment(surfaces):
+    for name in ("ada/a1", "ben/A 1", "cy/A-1", "cy/A2", "dee/a1", "dee/A1"):
+        (surfaces.folder / "submitted" / name).mkdir(parents=True)
+    (surfaces.folder / "submitted" / "A1").write_text("no folder")
+    said = directrix("grade", "A1", "--course", surfaces.folder, cwd=surfaces.folder)
+    named = [line for line in said.stderr.splitlines() if "was not graded" in line]
+    places = [surfaces.folder / "submitted" / name for name in ("ada/a1", "ben/A 1", "cy/A-1")]
+    assert named == [f"directrix: {place} was not graded: if it is A1, rename it to A1" for place in places]
+
+
 @pytest.mark.parametrize("arguments", [["marks", "A1", "--csv"], ["similar", "A1", "--html"]])
 def test_a_file_that_cannot_be_written_is_a_plain_line(surfaces, arguments):
     surfaces.hand_in("ada", {})

@@ -1,6 +1,7 @@
 """The class as it stands, read without grading: what `directrix report` shows."""
 
 import json
+import shutil
 import subprocess
 import sys
 
@@ -39,6 +40,15 @@ def test_the_class_as_it_stands(ordinary):
     assert "not graded" in ran.stderr
     assert f"1 graded; sandbox level {graded.level}" in ran.stderr
     assert ordinary.tables() == tables
+
+
+def test_who_reads_writes_nothing(ordinary):
+    """A course may lie on a disk that is closed to writing, its records left behind."""
+    ordinary.hand_in("ada", {"one": RIGHT, "two": {}})
+    graded = fleet.grade(ordinary.course(), "ps1").student("ada")
+    shutil.rmtree(ordinary.folder / ".directrix")
+    assert fleet.standing(ordinary.course(), "ps1").student("ada").score == graded.score
+    assert not (ordinary.folder / ".directrix").exists()
 
 
 def test_a_journal_that_is_lost_costs_the_cells_and_no_mark(ordinary):
