@@ -125,8 +125,10 @@ class Course:
         return sorted(found)
 
     def misnamed(self, assignment: str) -> list[Path]:
-        """Folders handed in whose name is the assignment's but for capitals, spaces and signs, as ``a1`` for A1: nobody's work
-        is to be lost for that. Who has the right one too is left alone. Where a course's folders end otherwise than in the assignment, none are looked for.
+        """Folders handed in whose name is the assignment's but for capitals, spaces and signs, as ``a1`` for A1.
+
+        Nobody's work is to be lost for that; who has the right one too is left alone. Where a course's folders end otherwise
+        than in the assignment, none are looked for.
         """
         place = self.path("submitted", "STUDENT", assignment)
         if place.name != assignment or place.parent.name != "STUDENT":

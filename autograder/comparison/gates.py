@@ -220,9 +220,10 @@ def _sampled(asked: Asked, handled: list[Form]) -> Sampled:
 
 
 def _finite_gate(f: Sampled) -> Gate | None:
-    bad: NDArray[np.bool_] = np.asarray(~(np.abs(f.values) < LARGEST).reshape(len(f.values), -1).all(axis=1))
-    if not bad.any():
+    good = np.abs(f.values) < LARGEST
+    if good.all():
         return None
+    bad: NDArray[np.bool_] = np.asarray(~good.reshape(len(f.values), -1).all(axis=1))
     place = f.points[bad]
     corners = [p for p in place if np.isin(p, (0.0, 1.0)).all()]
     at = tuple(float(x) for x in (corners or place)[0])
