@@ -58,11 +58,12 @@ class Zygote:
         self.poller.register(control, select.POLLIN)
         self.count = 0
         self.tried = False  # the first child, which the trusted side waits for, has ended
+        self.warm = False  # the first step of what is left is done: every child but the first is cloned after it
         self.programme = seccomp.programme()
         self.tid_address = system.thread_id_address()
         self.shell = Shell.for_notebooks()
         _warm_up(self.shell, preload)
-        self.left: Iterator[None] | None = rehearsal.failures(self.shell)  # to be done between one request and the next
+        self.left: Iterator[None] | None = _left(self.shell)  # to be done between one request and the next
         child.set_environment(confine.SCRATCH)
         if os.path.isdir("/proc/self/task") and len(os.listdir("/proc/self/task")) > 1:
             raise RuntimeError("a thread runs in the zygote; clone would leave its locks held for ever")
@@ -88,6 +89,8 @@ class Zygote:
                 if not message:
                     return
                 if descriptors:
+                    if self.count and not self.warm:
+                        self.rehearse_on()
                     self.start(json.loads(message), *descriptors)
                 else:
                     self.expect(*json.loads(message))
@@ -123,7 +126,8 @@ class Zygote:
             socket.send_fds(reporter, [b"{}"], [handle])
 
     def rehearse_on(self) -> None:
-        """A step of the rehearsal that is left. A child that is cloned before its end is only slower, where it fails."""
+        """A step of what is left. A child that is cloned before it is done is only slower."""
+        self.warm = True
         gc.disable()
         try:
             with warnings.catch_warnings():
@@ -184,14 +188,20 @@ def _warm_up(shell: Shell, preload: list[str]) -> None:
             figures.ask_nbformat_for_its_version_only()
             figures.take_arrays_as_they_are()
             figures.copy_quickly()
-        for figure in _figures(sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")):
-            with contextlib.suppress(Exception):
-                shell.rehearse_showing(figure())
-        if "plotly" in sys.modules:
-            figures.show_at_once(shell)  # from here on; what plotly does itself has been rehearsed
         tracebacks.prepare()
         with contextlib.suppress(Exception, NoAnswer):
             rehearsal.rehearse(shell)
+
+
+def _left(shell: Shell) -> Iterator[None]:
+    """What need not be done before the first child, which is only tried: all pictures, then failing cells one by one."""
+    for figure in _figures(sys.modules.get("plotly.graph_objects"), sys.modules.get("directrix.plot")):
+        with contextlib.suppress(Exception):
+            shell.rehearse_showing(figure())
+    if "plotly" in sys.modules:
+        figures.show_at_once(shell)  # from here on; what plotly does itself has been rehearsed
+    yield
+    yield from rehearsal.failures(shell)
 
 
 def _figures(go: Any, plot: Any) -> Iterator[Callable[[], Any]]:
