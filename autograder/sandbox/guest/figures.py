@@ -13,6 +13,7 @@ import copy
 import importlib
 import importlib.metadata
 import json
+import re
 import sys
 import types
 from typing import TYPE_CHECKING, Any
@@ -25,10 +26,10 @@ if TYPE_CHECKING:
 MIME = "application/vnd.plotly.v1+json"
 RENDERER = "plotly_mimetype"
 PLAIN = frozenset({str, int, float, bool, type(None), np.float64})
-TYPED = {"float32": "f4", "float64": "f8"}  # other arrays are plotly's to write
-BLANK = "\ue000"  # a character that means nothing to anybody
-WRITTEN_BLANK = "\\ue000"
-SKIPPED = frozenset({"geojson", "layer", "layers", "range"})  # plotly writes the arrays in these as lists
+TYPED = {"f": "f4", "d": "f8"}  # single and double precision; other arrays are plotly's to write
+BLANK = "\\ue000"  # a character that means nothing to anybody, as JSON writes it: the place of an array
+IN_DICTIONARY = re.compile(r': \{"dtype": "f[48]", "bdata": "\\ue000"')  # plotly writes other arrays as lists, and so those in
+NOT_CONVERTED = re.compile(r'"(?:geojson|layers?|range)": (?!\[[^][{}]*\]|[^][{}])')  # these, whatever is around them
 
 
 class Other(Exception):
@@ -113,7 +114,6 @@ class Shower:
         self.io: Any = importlib.import_module("plotly.io")
         self.publisher = type(shell.display_pub)
         self.renderer = type(self.io.renderers[RENDERER])
-        self.encoder: Any = importlib.import_module("_plotly_utils.utils").PlotlyJSONEncoder()
         self.writing: Any = importlib.import_module("plotly.io._base_renderers")
         self.stock = self._methods()
 
@@ -131,12 +131,24 @@ class Shower:
     def text(self, figure: Any) -> str:
         """The figure as JSON, as the recorder writes what plotly's renderer hands to it."""
         arrays: list[str] = []
-        whole = {"data": _written(figure._data, arrays), "layout": _written(figure._layout, arrays)}
-        if frames := [_written(frame._props, arrays) for frame in figure._frame_objs]:
+
+        def put_by(value: Any) -> dict[str, str]:
+            """An array as plotly writes it, but for what is in it."""
+            name = TYPED.get(value.dtype.char) if type(value) is np.ndarray else None
+            if name is None or not value.size or not value.ndim or not value.dtype.isnative:
+                raise Other
+            arrays.append(binascii.b2a_base64(np.ascontiguousarray(value).data, newline=False).decode("ascii"))
+            written = {"dtype": name, "bdata": "\ue000"}
+            if value.ndim > 1:
+                written["shape"] = str(value.shape)[1:-1]
+            return written
+
+        whole = {"data": figure._data, "layout": figure._layout}
+        if frames := [frame._props for frame in figure._frame_objs]:
             whole["frames"] = frames
         if config := self.writing._get_jconfig(self.io.renderers[RENDERER].config):
             whole["config"] = config
-        return _filled(json.dumps(whole, allow_nan=False, default=self.encoder.default), arrays)
+        return _filled(json.dumps(whole, allow_nan=False, default=put_by), arrays)
 
     def is_faithful(self) -> bool:
         """Whether a figure with a bit of everything is written as plotly writes it."""
@@ -178,40 +190,12 @@ class Shower:
         return figure._ipython_display_, figure.to_dict, renderer.to_mimebundle, self.io.show, self.writing.to_json
 
 
-def _written(value: Any, arrays: list[str]) -> Any:
-    """A part of a figure for JSON, with arrays that stand in a dictionary in base64, as plotly writes them.
-
-    That is put by in ``arrays``, its place left blank: nothing in it is to be escaped, and to look takes longer than the rest.
-    """
-    kind = type(value)
-    if kind is dict:
-        return {key: item if type(item) in PLAIN else _item(key, item, arrays) for key, item in value.items()}
-    if kind is list or kind is tuple:
-        return [item if type(item) in PLAIN else _written(item, arrays) for item in value]
-    raise Other
-
-
-def _item(key: Any, value: Any, arrays: list[str]) -> Any:
-    if key in SKIPPED:
-        if type(value) in (list, tuple) and all(type(item) in PLAIN for item in value):
-            return value
-        raise Other
-    if type(value) is not np.ndarray:
-        return _written(value, arrays)
-    name = TYPED.get(value.dtype.name)
-    if name is None or not value.size or not value.ndim or not value.dtype.isnative:
-        raise Other
-    arrays.append(binascii.b2a_base64(np.ascontiguousarray(value).data, newline=False).decode("ascii"))
-    written = {"dtype": name, "bdata": BLANK}
-    if value.ndim > 1:
-        written["shape"] = str(value.shape)[1:-1]
-    return written
-
-
 def _filled(text: str, arrays: list[str]) -> str:
-    """The JSON with the arrays in their places."""
-    between = text.split(WRITTEN_BLANK)
-    if len(between) != len(arrays) + 1:
-        raise Other  # somebody else has written the blank
+    """The JSON with the base64 of the arrays in their places: nothing in it is to be escaped, and to look takes longer than
+    all the rest.
+    """
+    between = text.split(BLANK)
+    if not len(between) - 1 == len(arrays) == len(IN_DICTIONARY.findall(text)) or NOT_CONVERTED.search(text):
+        raise Other
     pieces = [piece for pair in zip(between, arrays, strict=False) for piece in pair]
     return "".join([*pieces, between[-1]])

@@ -158,6 +158,10 @@ figures = [
     go.Figure(go.Surface(z=np.eye(3)[:, ::2], surfacecolor=np.ones((2, 3), "f4").T)).update_layout(height=np.float64(300)),
     go.Figure(go.Scatter(y=[1, float("nan")], meta={{"layer": {{"a": np.ones(2)}}, "range": np.ones(2)}})),
     go.Figure(go.Scatter(y=np.ones(2), name="\\ue000", text=["\\\\ue000"])),
+    go.Figure(go.Scatter(y=np.ones(2), meta={{"layer": {{"a": np.ones(2)}}}})),
+    go.Figure(go.Scatter(y=np.ones(2), meta={{"b": [np.ones(2), {{"a": np.ones(2)}}]}})),
+    go.Figure(go.Scatter(y=np.ones(2), meta={{"range": [1, [np.ones(2)]]}})),
+    go.Figure(go.Scatter(y=np.ones(2), text='": {{"dtype": "f8", "bdata": "', meta={{"range": "[{{", "layers": (1, "a")}})),
     go.Figure(go.Scatter(y=[1]), frames=[go.Frame(data=[go.Scatter(y=np.ones(2))])]).add_annotation(text="a", x=0, y=0),
 ]
 figures[-1].layout.xaxis.range = (0, 1)
@@ -169,7 +173,7 @@ def test_figures_are_shown_at_once_as_plotly_shows_them(template):
     """``show`` is plotly's own way: nothing of ours is in it."""
     with Sandbox(Policy()) as box, box.open() as notebook:
         assert notebook.run_cell(SHOWN.format(template=template)).status == "ok"
-        for number in range(8):
+        for number in range(12):
             ours, stock = (notebook.run_cell(f"figures[{number}]{how}").outputs for how in ("", ".show()"))
             assert [output["output_type"] for output in ours] == ["display_data"]
             assert ours == stock
@@ -181,8 +185,8 @@ def test_figures_are_shown_at_once_as_plotly_shows_them(template):
             "def text(one):\n    try:\n        return shower.text(one)\n    except Exception:\n        return None\n"
             "print([text(one) == by_plotly[MIME] for one, by_plotly in zip(figures, stock)])"
         )
-    assert counted.outputs[0]["text"] == ("[True, True, True, False, True, False, False, True]\n"), (
-        "integers, NaN and the blank are left to plotly"
+    assert counted.outputs[0]["text"] == ("[True, True, True, False, True, False, False, False, False, False, True, True]\n"), (
+        "integers, NaN, the blank, and arrays in lists and in what is not converted are left to plotly"
     )
 
 
