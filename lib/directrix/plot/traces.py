@@ -90,15 +90,27 @@ def parameter_lines(
     ``size`` is that of the picture, of which the lift is a share; ``normals`` are :func:`grid_normals` of the points, where
     they are known already.
     """
-    lift = LIFT * size * (grid_normals(points) if normals is None else normals)
+    normals = grid_normals(points) if normals is None else normals
     picked = sorted(set(at))
-    sides = [points + lift, points - lift]
-    curves = [side[:, j] if along == "u" else side[j] for side in sides for j in picked]
-    return line(curves, colour=palette.U if along == "u" else palette.W, width=width, name=f"along {along}", **style)
+    on, away = (rows[:, picked].swapaxes(0, 1) if along == "u" else rows[picked] for rows in (points, normals))
+    lift = LIFT * size * away
+    return line(
+        np.concatenate([on + lift, on - lift]),
+        colour=palette.U if along == "u" else palette.W,
+        width=width,
+        name=f"along {along}",
+        **style,
+    )
 
 
 def line(
-    curves: Sequence[Array], *, colour: str, width: float = 3.0, name: str = "", scene: str = "scene", dash: str = "solid"
+    curves: Sequence[Array] | Array,
+    *,
+    colour: str,
+    width: float = 3.0,
+    name: str = "",
+    scene: str = "scene",
+    dash: str = "solid",
 ) -> Trace:
     """Any number of polylines (n, 3) as one trace."""
     return {
@@ -186,8 +198,12 @@ def _coordinates(points: Array) -> list[NDArray[np.float32]]:
     return [np.ascontiguousarray(points[..., axis], dtype=np.float32) for axis in range(3)]
 
 
-def _joined(curves: Sequence[Array]) -> Array:
+def _joined(curves: Sequence[Array] | Array) -> Array:
     """Polylines one after the other, a row of NaN between them."""
+    if isinstance(curves, np.ndarray):  # all of one length
+        joined = np.full((len(curves), curves.shape[1] + 1, 3), np.nan)
+        joined[:, :-1] = curves
+        return joined.reshape(-1, 3)[:-1]
     gap = np.full((1, 3), np.nan)
     pieces = [piece for one in curves for piece in (one, gap)]
     return np.concatenate(pieces[:-1]) if pieces else np.empty((0, 3))
