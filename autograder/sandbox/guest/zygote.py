@@ -199,6 +199,7 @@ def _left(shell: Shell) -> Iterator[None]:
         with contextlib.suppress(Exception):
             shell.rehearse_showing(figure())
     if "plotly" in sys.modules:
+        figures.find_validators_quickly()
         figures.show_at_once(shell)  # from here on; what plotly does itself has been rehearsed
     yield
     yield from rehearsal.failures(shell)

@@ -232,3 +232,34 @@ def test_plotly_copies_plain_data_quickly_and_as_ever():
     with Sandbox(Policy()) as box, box.open() as notebook:
         result = notebook.run_cell("import plotly.basedatatypes as b, copy\nb.deepcopy is not copy.deepcopy")
     assert result.outputs[0]["data"]["text/plain"] == "True"
+
+
+WRONG = [
+    "go.Scatter(nonsense=1)",
+    "go.Scatter(y=3)",
+    "go.Scatter(line={'color': 'no colour'})",
+    "go.Figure(layout={'xaxis': {'rang': [0, 1]}})",
+    "go.Figure({'type': 'surface', 'z': [[1]], 'cmin': 'a'}).update_layout(scene_camera_eye_q=1)",
+    "go.Figure().update_layout(scene_camera_eye_q=1, xaxis3_title='a')",
+    "go.Figure().layout['xaxis']['nonsense']",
+    "go.Figure().layout.xaxis.range = 'a'",
+    "go.Scatter()[['x']]",
+]
+
+
+def test_plotly_finds_its_validators_quickly_and_as_ever():
+    """What is wrong is told in the same words, by the same lines; plotly's own way is put back in the middle."""
+    with Sandbox(Policy()) as box, box.open() as notebook:
+        notebook.run_cell("import plotly.graph_objects as go\nfrom plotly.basedatatypes import BasePlotlyType as kind")
+        swapped = notebook.run_cell("stock = kind._get_validator.__wrapped__\nfigure = go.Figure(go.Scatter3d(x=[1]))")
+        assert swapped.status == "ok"
+        said = []
+        for _ in range(2):
+            results = [notebook.run_cell(source) for source in WRONG]
+            assert {result.status for result in results} == {"error"}
+            said.append([re.sub(r"In\[\d+\]|ipython-input-\d+", "In", str(result.outputs)) for result in results])
+            same = notebook.run_cell("print(all(find(figure.layout, name) is kind._get_validator(figure.layout, name)"
+                " for find in [stock] for name in figure.layout))")  # fmt: skip
+            assert same.outputs[0]["text"] == "True\n"
+            notebook.run_cell("kind._get_validator = stock")
+    assert said[0] == said[1]
