@@ -61,6 +61,8 @@ class Crew(Generic[Task, Result]):
 
     def close(self) -> None:
         """End all workers at once; what they have not answered is lost."""
+        for member in self._members:
+            member.kill()  # each takes a while to go
         while self._members:
             member = self._members.pop()
             self.unfinished += member.given
@@ -137,10 +139,14 @@ class _Member(Generic[Task]):
             _worker(crew, number, theirs, parent)
         theirs.close()
 
-    def end(self) -> str:
-        """Kill it; how it ended, in words."""
+    def kill(self) -> None:
+        """Kill it; :meth:`end` waits until it is gone."""
         with contextlib.suppress(ProcessLookupError):
             os.kill(self.pid, signal.SIGKILL)
+
+    def end(self) -> str:
+        """Kill it; how it ended, in words."""
+        self.kill()
         self.line.close()
         _, status = os.waitpid(self.pid, 0)
         number = os.waitstatus_to_exitcode(status)
