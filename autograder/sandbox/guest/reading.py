@@ -20,7 +20,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-from IPython.core.compilerop import CachingCompiler, PyCF_MASK
+from IPython.core.compilerop import CachingCompiler, PyCF_MASK, code_name
 from IPython.core.inputtransformer2 import TransformerManager
 
 # Without one of these no line is IPython's own syntax: a command (%magic, !system, ?help, quoting by , ; or /) at the beginning
@@ -79,7 +79,7 @@ class Compiler(CachingCompiler):
         """Keep what has just been read, compiled, for a notebook that holds the same cell, most likely with this number."""
         if self.parsed is not None:
             source, tree, *_ = self.parsed
-            file = self.get_code_name(source, source, number)
+            file = code_name(source, number)
             self.given[cell] = Parsed(source, tree, compiled(tree, file, self.stock | AWAITING), file)
         self.forget()
 
@@ -95,7 +95,7 @@ class Compiler(CachingCompiler):
         read = self.parsed
         if read is None or read.source != source or self.flags != self.stock or _circumstances() != self.usual:
             return False
-        self.file, steps = self.get_code_name(source, source, number), read.steps
+        self.file, steps = code_name(source, number), read.steps
         if steps is None:
             steps = compiled(read.tree, self.file, self.stock | AWAITING)
         elif self.file != read.file:

@@ -21,15 +21,14 @@ from contextlib import contextmanager, suppress
 from typing import Any, ClassVar
 
 from IPython.core import page
-from IPython.core.displayhook import DisplayHook
 from IPython.core.displaypub import DisplayPublisher
 from IPython.core.error import StdinNotImplementedError
-from IPython.core.interactiveshell import InteractiveShell
 from traitlets import Type
 from traitlets.config import Config
 
 from autograder.sandbox.guest.answers import TimeLimitExceeded
 from autograder.sandbox.guest.reading import Compiler, Plainly
+from autograder.sandbox.guest.unwatched import UnwatchedHistory, UnwatchedHook, UnwatchedShell
 from autograder.sandbox.guest.words import say
 
 JSON_TYPES = ("application/json", "+json")
@@ -196,7 +195,7 @@ class Publisher(DisplayPublisher):
         shell.recorder.clear(wait)
 
 
-class Result(DisplayHook):
+class Result(UnwatchedHook):
     """Records the value of a cell's last expression."""
 
     shown: tuple[Any, Any] | None = None
@@ -226,7 +225,7 @@ class Result(DisplayHook):
         self.shown = None
 
 
-class Shell(InteractiveShell):
+class Shell(UnwatchedShell):
     """An IPython shell without terminal, kernel, history file or threads."""
 
     displayhook_class = Type(Result)
@@ -267,6 +266,11 @@ class Shell(InteractiveShell):
 
     def init_profile_dir(self, profile_dir: Any) -> None:
         """There is no profile."""
+
+    def init_history(self) -> None:
+        """What has been run, in memory."""
+        self.history_manager = UnwatchedHistory(shell=self, parent=self)
+        self.configurables.append(self.history_manager)  # type: ignore[arg-type]
 
     def init_hooks(self) -> None:
         """``name?`` shows its help below the cell."""

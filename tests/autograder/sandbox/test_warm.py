@@ -263,3 +263,18 @@ def test_plotly_finds_its_validators_quickly_and_as_ever():
             assert same.outputs[0]["text"] == "True\n"
             notebook.run_cell("kind._get_validator = stock")
     assert said[0] == said[1]
+
+
+def test_who_watches_a_trait_that_changes_with_every_cell_is_told(sandbox):
+    with sandbox.open() as notebook:
+        cells = (
+            "import traitlets\nshell, seen = get_ipython(), []\nshell.observe(seen.append, 'execution_count')",
+            "shell.displayhook.observe(seen.append)",
+            "with shell.hold_trait_notifications():\n    shell.last_execution_succeeded = False\n    held = len(seen)",
+            "5",
+            "print(sorted({one.name for one in seen}), [one.new for one in seen if one.name == 'execution_count'], held)",
+            "shell.execution_count = 'a word'",
+        )
+        *_, told, refused = [notebook.run_cell(cell) for cell in cells]
+    assert told.outputs[0]["text"] == "['exec_result', 'execution_count'] [3, 4, 5, 6] 4\n"
+    assert refused.outputs[0]["evalue"].startswith("The 'execution_count' trait of a Shell instance expected an int")
