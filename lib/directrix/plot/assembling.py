@@ -39,10 +39,13 @@ def _by_plotly(traces: list[Part], layout: Part) -> Figure:
 def _put_together(traces: list[Part], layout: Part) -> Figure:
     import plotly.graph_objects as go
 
-    # Numbered parts, such as scene2, are objects of their own from the beginning: those plotly makes.
-    numbered = {name: part for name, part in layout.items() if name[-1].isdigit()}
-    figure: Any = go.Figure(layout={"template": layout["template"], **numbered}, _validate=False)
-    figure._layout = _sorted(layout, numbered) | {name: figure._layout[name] for name in numbered}
+    numbered = {name: _ordered(part) for name, part in layout.items() if name[-1].isdigit()}
+    figure: Any = go.Figure(layout={"template": layout["template"]}, _validate=False)
+    figure._layout = _sorted(layout, numbered) | numbered
+    for name in numbered:  # such as scene2: a layout knows those that it has, and has an object of each
+        figure._layout_obj._valid_props.add(name)
+        figure._layout_obj._subplotid_props.add(name)
+        figure._layout_obj[name]
     figure._data = [_sorted(trace, {"type"}) | {"type": trace["type"]} for trace in traces]
     figure._data_defaults = [{} for _ in traces]
     class_of = figure._data_validator.get_trace_class
@@ -66,12 +69,24 @@ def _copied(value: Any) -> Any:
     return value
 
 
+def _ordered(value: Any) -> Any:
+    """A copy in that order throughout, as plotly keeps what it has made objects of."""
+    return {name: _ordered(one) for name, one in sorted(value.items())} if type(value) is dict else _copied(value)
+
+
 @functools.cache
 def _keeps_dictionaries() -> bool:
     """Whether a figure that is put together has in it what plotly's own has."""
     traces = [{"type": kind, "name": "a", "x": [0.0, 1.0], "hoverinfo": "skip"} for kind in ("scatter3d", "scatter", "surface")]
     axis = {"range": [0, 1], "title": {"text": "x"}}
-    layout = {"template": {}, "paper_bgcolor": "red", "height": 300, "xaxis": axis, "scene2": {"xaxis": axis}, "meta": {"a": 1}}
+    layout = {
+        "template": {},
+        "paper_bgcolor": "red",
+        "height": 300,
+        "xaxis": axis,
+        "scene2": {"yaxis": axis, "bgcolor": "red"},
+        "meta": {"a": 1},
+    }
     try:
         ours, theirs = (make(traces, layout) for make in (_put_together, _by_plotly))
         return _inside(ours) == _inside(theirs)
