@@ -200,7 +200,7 @@ class _Run:
         if isinstance(workers, int):
 
             def work(task: Task, number: int) -> Landed:
-                plan.open_session.box.ahead = True
+                plan.open_session.box.ahead = count > 1
                 read = self._read(task)
                 return read if isinstance(read, Landed) else self._laid_out(judged(plan, task, read))
 
