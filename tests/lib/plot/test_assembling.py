@@ -70,6 +70,15 @@ def test_whatever_is_done_with_it_comes_out_the_same(both):
         assert said[0] == said[1]
 
 
+def test_two_figures_share_nothing_that_may_change():
+    one, other = (view(dx.Sphere(2), against=dx.Sphere(2.1)) for _ in range(2))
+    for mine, yours in zip((one, one.layout, *one.data), (other, other.layout, *other.data), strict=True):
+        for name, value in vars(mine).items():
+            assert not isinstance(value, dict | list | set) or value is not vars(yours)[name], name
+    assert one.data[1] is not one.data[2]
+    assert all(part.figure is one for part in (one.layout, one.layout.scene2, *one.data))
+
+
 def test_what_is_changed_in_one_figure_stays_in_it():
     before = view(dx.Sphere(2), title="a").to_json()
     changed = view(dx.Sphere(2), title="a")
