@@ -31,6 +31,7 @@ LEVELS: dict[str, str] = {
 }
 START_SECONDS = 60.0
 MESSAGE = 2**16  # bytes that the zygote takes at once
+GIVEN = 2**17  # bytes of cells that it reads for all; what it makes of a byte may take three hundred
 
 
 class Sandbox:
@@ -61,6 +62,7 @@ class Sandbox:
         self.level = level
         self._bubblewrap = bubblewrap
         self.ahead = False  # keep one process ready for the next notebook; for those who open one after the other
+        self._room = GIVEN
         self._ready: _Order | None = None
         self._sessions: set[Session] = set()
         self._lock = threading.Lock()
@@ -164,9 +166,11 @@ class Sandbox:
         """
         for number, cell in enumerate(cells, 1):
             message = json.dumps([cell, number]).encode()
-            if len(message) < MESSAGE:  # a longer one is not taken in one piece, and is read by each notebook as ever
-                with contextlib.suppress(OSError):  # the zygote is gone: who opens a notebook is told
-                    self._control.send(message)
+            if len(message) > min(MESSAGE, self._room):  # each notebook reads this one as ever
+                continue
+            self._room -= len(message)
+            with contextlib.suppress(OSError):  # the zygote is gone: who opens a notebook is told
+                self._control.send(message)
 
     def close(self) -> None:
         """End every session and the zygote."""

@@ -170,3 +170,16 @@ def test_a_given_cell_is_not_read_again():
     assert int(again.split()[0]) > int(once.split()[0])
     assert runs[3][0]["data"]["text/plain"] == "5000"
     assert 'file "<ipython-input-6-' in runs[7][0]["data"]["text/plain"]
+
+
+def test_what_is_too_long_is_read_by_each_notebook():
+    """One cell that is longer than a message, and all of them together."""
+    long = "x = [" + "1, " * 10_000 + "]\nlen(x)"
+    cells = (long + " " * 2**16, *(f"{long} + {k}" for k in range(20)))
+    with Sandbox(Policy(packages=(), preload=())) as box:
+        box.expect(cells)
+        with box.open() as session:
+            held = session.run_cell("print(sorted(int(cell.split('+')[-1]) for cell in get_ipython().compile.given))")
+            shown = [session.run_cell(cell).outputs[0]["data"]["text/plain"] for cell in (cells[0], cells[1], cells[-1])]
+    assert held.outputs[0]["text"] == f"{list(range(4))}\n"
+    assert shown == ["10000", "10000", "10019"]
