@@ -38,8 +38,8 @@ from autograder.notebook import apart, secret, submission
 from autograder.notebook.apart import Script
 from autograder.notebook.master import Master, given
 from autograder.notebook.rebuild import notification
-from autograder.notebook.session import Opener, Packages
-from autograder.sandbox import kernel
+from autograder.notebook.session import Opener, Packages, needs
+from autograder.sandbox import Policy, kernel
 
 if TYPE_CHECKING:
     from autograder.gradebook import Gradebook
@@ -150,6 +150,12 @@ class Course:
         folders = [self.path(step, ".", assignment) for step in ("source", "release")]
         names = sorted({path.stem for folder in folders for path in folder.glob("*.ipynb")})
         return [Master(name, {}).beside(self.instructor_file(assignment, name)) for name in names]
+
+    def likely_policy(self, assignment: str) -> Policy:
+        """What these files say that the sandbox of the assignment has to offer."""
+        masters = self.likely_masters(assignment)
+        posed = [found for master in masters for name in master.checks if (found := self.exercise(name)) is not None]
+        return needs(posed, self.packages, self.withhold, draws=any(master.draws for master in masters))
 
     def masters(self, of: AssignmentRow) -> dict[str, Master]:
         """The instructor's copies of the notebooks, with what the released files say beside them."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import contextlib
 import hashlib
 import json
 import logging
@@ -12,16 +13,17 @@ import secrets
 import shutil
 import sysconfig
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import nbformat
 
 from autograder import catalogue, settings
-from autograder.errors import CourseError, SubmissionError
+from autograder.course import Course
+from autograder.errors import CourseError, DirectrixError, SubmissionError
 from autograder.notebook import source
 from autograder.notebook.submission import parse
+from autograder.sandbox import ahead
 
 CONFIG = '''"""An nbgrader course that Directrix grades. Everything that nbgrader's own documentation says holds here too."""
 
@@ -131,7 +133,14 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     released = course / "release" / name
     if own is not None and with_exercises:
         _put_beside(own, released / catalogue.BESIDE / own.folder.name)
+    _expect_grading(Course(course), name)
     return released
+
+
+def _expect_grading(course: Course, name: str) -> None:
+    """Leave a note of the sandbox that grading it will need, most likely, so that the first run begins with that too."""
+    with contextlib.suppress(DirectrixError, OSError):  # who grades is told; and without a note a run takes a little longer
+        ahead.remember(ahead.note(course.room, name), course.likely_policy(name), "A")
 
 
 def _readable(folder: Path) -> None:
@@ -256,7 +265,7 @@ def remove_course(folder: Path) -> None:
     shutil.rmtree(folder)
 
 
-@contextmanager
+@contextlib.contextmanager
 def _tools_on_path() -> Iterator[None]:
     """nbgrader starts `alembic` by name: let it find the one beside our interpreter, in an environment not activated too."""
     before = os.environ.get("PATH", os.defpath)
@@ -267,7 +276,7 @@ def _tools_on_path() -> Iterator[None]:
         os.environ["PATH"] = before
 
 
-@contextmanager
+@contextlib.contextmanager
 def _quiet(name: str) -> Iterator[None]:
     logger = logging.getLogger(name)
     level = logger.level

@@ -9,7 +9,7 @@ import logging
 from autograder.course import Course
 from autograder.fleet import capacity
 from autograder.fleet.one import Plan
-from autograder.notebook.session import Begun, Opener, needs
+from autograder.notebook.session import Begun, Opener
 from autograder.sandbox import ahead
 
 log = logging.getLogger(__name__)
@@ -17,10 +17,7 @@ log = logging.getLogger(__name__)
 
 def begun(course: Course, assignment: str, level: str | None) -> Begun:
     """The sandbox starts while the gradebook is loaded and read, on the word of the instructor's files."""
-    masters = course.likely_masters(assignment)
-    posed = [found for master in masters for name in master.checks if (found := course.exercise(name)) is not None]
-    policy = needs(posed, course.packages, course.withhold, draws=any(master.draws for master in masters))
-    return Begun(policy, level)
+    return Begun(course.likely_policy(assignment), level)
 
 
 def remember(course: Course, assignment: str, session: Opener) -> None:

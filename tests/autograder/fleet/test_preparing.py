@@ -1,9 +1,12 @@
 """The sandbox starts before the gradebook is read: once, the right one, and only if something is to be graded."""
 
+import json
+
 import pytest
 
-from autograder import fleet
+from autograder import authoring, fleet
 from autograder.notebook import session
+from autograder.sandbox import ahead
 
 
 @pytest.fixture
@@ -40,3 +43,14 @@ def test_without_the_instructor_s_files_the_gradebook_decides(surfaces, started)
     assert [cell.points for cell in graded.student("ada").cells] == [cell.points for cell in expected.student("ada").cells]
     assert started[0] == started[-1]
     assert len(started) == 3
+
+
+def test_a_release_leaves_the_note_that_a_run_leaves(surfaces):
+    """So the first run begins with its sandbox too."""
+    note = ahead.note(surfaces.folder / ".directrix", "A1")
+    authoring.release(surfaces.folder, "A1")
+    told = json.loads(note.read_text("utf-8"))
+    note.unlink()
+    surfaces.hand_in("ada", {"known-forms": {}})
+    graded = fleet.grade(surfaces.course(), "A1")
+    assert json.loads(note.read_text("utf-8")) == {**told, "level": graded.level}
