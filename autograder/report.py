@@ -12,10 +12,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
-from rich.cells import cell_len, set_cell_size
-from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
+from rich.console import Console, Group, RenderableType
 from rich.padding import Padding
-from rich.segment import Segment
 from rich.table import Table
 from rich.text import Text
 
@@ -23,7 +21,7 @@ from autograder.fleet import CellReport, GradeReport, StudentReport
 from autograder.fleet.result import STRAY
 
 PAGE = 100  # students in a table: the next has its heading again
-FEW = 5  # pages of students that may be held in memory at once
+FEW = 5  # tables of students that may be held in memory at once
 MOST_MISTAKES = 3
 WIDEST_NAME = 22
 STATUS = {
@@ -174,83 +172,27 @@ def _widths(graded: GradeReport) -> _Widths:
     return found
 
 
-def _students(graded: GradeReport, widths: _Widths) -> Iterator[_Page]:
+def _students(graded: GradeReport, widths: _Widths) -> Iterator[Table]:
     count = len(graded.students)
-    made = _Page(widths, plain(f"{graded.assignment}: {count} submission{'s' * (count != 1)}"))
+    made = _page(widths, title=plain(f"{graded.assignment}: {count} submission{'s' * (count != 1)}"))
     for student in graded.students:
-        if len(made.rows) == PAGE:
+        if made.row_count == PAGE:
             yield made
-            made = _Page(widths)
+            made = _page(widths)
         cells = {(cell.notebook, cell.name): cell for cell in student.cells}
-        marks = [_points(cells.get(column)) for column in widths.marks]
-        made.rows.append(((plain(student.student), ""), *marks, (_total(student, graded), ""), _remark(student)))
+        marks = (Text(*_points(cells.get(column))) for column in widths.marks)
+        made.add_row(Text(plain(student.student)), *marks, _total(student, graded), _remark(student))
     yield made
 
 
-@dataclass
-class _Page:
-    """A part of the class as Rich's table shows it. Lines into which everything fits need none of its thought for each cell."""
-
-    widths: _Widths
-    title: str | None = None
-    rows: list[tuple[tuple[str, str], ...]] = field(default_factory=list)  # texts with their styles
-
-    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        room = self._room(options.max_width)
-        if room is None:
-            made = self._table(self._least())
-            for row in self.rows:
-                made.add_row(*(Text(*cell) for cell in row))
-            yield made
-            return
-        head = self._table(room[:-1])
-        *above, below = console.render_lines(head, options, pad=False, new_lines=True)
-        for line in above:
-            yield from line
-        yield from self._lines(console, options, room, head)
-        yield from below
-
-    def _least(self) -> list[int]:
-        return [min(self.widths.student, WIDEST_NAME), *self.widths.marks.values(), self.widths.points]
-
-    def _table(self, widths: list[int]) -> Table:
-        title = None if self.title is None else Text(self.title)
-        made = Table(title=title, title_justify="left", header_style="bold", expand=True)
-        student, *marks, points = widths
-        made.add_column("student", overflow="fold", min_width=student)
-        for number, width in enumerate(marks, 1):
-            made.add_column(str(number), justify="right", no_wrap=True, min_width=width)
-        made.add_column("points", justify="right", no_wrap=True, min_width=points)
-        made.add_column("", no_wrap=True, overflow="ellipsis", ratio=1)
-        return made
-
-    def _room(self, width: int) -> list[int] | None:
-        """The widths of the columns, where all but the last have what they need and the last has the rest; else None."""
-        heads = ["student", *map(str, range(1, len(self.widths.marks) + 1)), "points"]
-        needed = [max(least, len(head)) for least, head in zip(self._least(), heads, strict=True)]
-        for row in self.rows:
-            needed = [max(most, cell_len(text)) for most, (text, _) in zip(needed, row, strict=False)]
-        rest = width - sum(needed) - 3 * len(needed) - 4
-        return [*needed, rest] if rest > 0 else None
-
-    def _lines(self, console: Console, options: ConsoleOptions, room: list[int], head: Table) -> Iterator[Segment]:
-        box = head.box.substitute(options, safe=console.safe_box)  # type: ignore[union-attr]
-        *to_the_right, last = range(1, len(room))
-        for row in self.rows:
-            said = box.mid_left
-            for column, (text, style) in enumerate(row):
-                free = room[column] - cell_len(text)
-                if free < 0:
-                    text = set_cell_size(text, room[column] - 1) + "…"
-                text = " " * free + text if column in to_the_right else text + " " * free
-                if style:
-                    yield Segment(f"{said} ")
-                    yield Segment(text, console.get_style(style))
-                    said = " "
-                else:
-                    said += f" {text} "
-                said += box.mid_right if column == last else box.mid_vertical
-            yield Segment(f"{said}\n")
+def _page(widths: _Widths, title: str | None = None) -> Table:
+    made = Table(title=None if title is None else Text(title), title_justify="left", header_style="bold", expand=True)
+    made.add_column("student", overflow="fold", min_width=min(widths.student, WIDEST_NAME))
+    for number, width in enumerate(widths.marks.values(), 1):
+        made.add_column(str(number), justify="right", no_wrap=True, min_width=width)
+    made.add_column("points", justify="right", no_wrap=True, min_width=widths.points)
+    made.add_column("", no_wrap=True, overflow="ellipsis", ratio=1)
+    return made
 
 
 def _total(student: StudentReport, graded: GradeReport) -> str:
@@ -273,7 +215,7 @@ def _points(cell: CellReport | None) -> tuple[str, str]:
     return f"{cell.points:g}{'?' if cell.look else ''}", style
 
 
-def _remark(student: StudentReport) -> tuple[str, str]:
+def _remark(student: StudentReport) -> Text:
     word, style = STATUS[student.status]
     said = [] if student.status == "graded" else [word]
     if student.missing and student.status != "empty":
@@ -284,7 +226,7 @@ def _remark(student: StudentReport) -> tuple[str, str]:
         said.append(f"{student.looks} to look at")
     slips = list(dict.fromkeys(cell.mistake for cell in student.cells if cell.mistake))
     said += slips[:MOST_MISTAKES] + (["..."] if len(slips) > MOST_MISTAKES else [])
-    return plain(", ".join(said)), style
+    return Text(plain(", ".join(said)), style=style)
 
 
 def _class(found: tuple[Part, ...]) -> Table:

@@ -6,7 +6,6 @@ import os
 import tracemalloc
 from collections.abc import Sequence
 
-import pytest
 from rich.console import Console
 
 from autograder import report
@@ -188,39 +187,3 @@ def test_what_a_larger_class_takes_to_show_does_not_grow(monkeypatch):
         finally:
             tracemalloc.stop()
     assert peaks[2] - peaks[1] < 100 * 500, peaks
-
-
-AWKWARD = (
-    student("ada", cell("cylinder", 4.0), cell("cone", 2.0, mistake="slant_as_height")),
-    student("\u674e\u5a1c " * 5, cell("cylinder", 1 / 3, mistake="\u00e9" * 30), cell("cone", None), penalty=0.25),
-    student("o\u0301scar with a name of several words", cell("cylinder", 0.0, look=True), status="unchanged"),
-    student("[bold]x[/bold] :smile:", status="failed", missing=("\u9762" * 40,)),
-    student("", cell("cylinder", 4.0), cell("cone", None), status="broken"),
-)
-
-
-class Ascii(io.StringIO):
-    encoding = "ascii"
-
-
-@pytest.mark.parametrize("rows", [(), AWKWARD[:1], AWKWARD[3:4], AWKWARD[:3], AWKWARD, AWKWARD * 21])
-def test_lines_that_fit_are_as_rich_would_show_them(rows, monkeypatch):
-    """Character for character, at every width, with and without colours: Rich's own table is the oracle."""
-    graded = GradeReport("geo", "A1", "A", rows, available=8.0)
-
-    quick = 0
-    for width in (*range(12, 120, 4 if len(rows) < 20 else 17), 150, 300):
-        for options in ({"color_system": None}, {"force_terminal": True, "color_system": "truecolor"}):
-            shown = []
-            for by_rich in (False, True):
-                with monkeypatch.context() as context:
-                    room = report._Page._room
-                    if by_rich:
-                        context.setattr(report._Page, "_room", lambda page, width: None)
-                    file = Ascii() if width % 3 == 0 else io.StringIO()
-                    console = Console(file=file, width=width, legacy_windows=False, **options)
-                    console.print(report.table(graded))
-                    shown.append(file.getvalue())
-                    quick += not by_rich and all(room(page, width) for page in report._students(graded, report._widths(graded)))
-            assert shown[0] == shown[1], width
-    assert quick > 5, "wide enough for the short way"
