@@ -159,10 +159,11 @@ def _search(findings: Sequence[Finding], call: Callable[..., Any] | None) -> Non
         search(finding, call)
         if before == finding.tier == "different":
             break  # the lowest rung already: what the others are changes nothing
-    shown = overall([f for f in findings if not f.target.hidden])
-    earns = shown in DEAR and exercise.tier_credit(shown) > 0
+    public = [f for f in findings if not f.target.hidden]
+    shown = overall(public)
+    earns = (shown in DEAR or any(f.sets is not None for f in public)) and exercise.tier_credit(shown) > 0
     for finding in findings:
-        if finding.target.hidden and finding.tier == "different":
+        if finding.target.hidden and finding.tier in ("different", "close"):
             search(finding, call if earns else None)
             if finding.tier == "different" and shown in DEAR and not earns:
                 finding.tier = shown  # worth as little; the public data say which it is

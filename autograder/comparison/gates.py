@@ -248,7 +248,8 @@ def _pointwise_gate(asked: Asked, f: Sampled, handled: list[Form]) -> Gate | Non
         if agree(mine, same, rounding):  # and so within what is allowed, which takes longer to find
             return False
         # float32 answers differ in their last digits with the length of the array: matrix products are summed in other orders.
-        return not agree(mine, same, rounding + max(f.target.allowed, 1e-5 * f.target.size))
+        room = 2 * f.target.allowed if f.identical else max(f.target.allowed, 1e-5 * f.target.size)
+        return not agree(mine, same, rounding + room)
 
     last = len(samples.points)
     if isinstance(asked.pair, Numbers) and asked.pair.values.shape == (2, *f.target.values.shape[1:]):

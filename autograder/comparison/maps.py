@@ -60,9 +60,9 @@ class Sampled:
         """T1c: a rounded constant away."""
         return self.worst <= CLOSE
 
-    def equals(self, values: Array, allowed: float | None = None) -> bool:
+    def equals(self, values: Array) -> bool:
         """Whether it has these values (N, 3) at the samples, up to the tolerance of the reference."""
-        return agree(self.values, values[self.indices], self.target.allowed if allowed is None else allowed)
+        return bool(distances(self.values, values[self.indices]).max() <= self.target.allowed)
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,8 @@ def agree(a: Array, b: Array, allowed: float) -> bool:
 
 def relabellings(f: Sampled) -> tuple[Symmetry, ...]:
     """T1: every symmetry σ with f∘σ = g, the identity included where f = g."""
-    return tuple(s for s in f.target.symmetries if f.equals(f.target.relabelled(s)))
+    same, *others = f.target.symmetries
+    return tuple([same] * f.identical + [s for s in others if f.equals(f.target.relabelled(s))])
 
 
 def closed_directions(target: Target) -> tuple[int, ...]:

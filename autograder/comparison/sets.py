@@ -24,10 +24,13 @@ from autograder.result import Tier
 
 SAME = 1e-6  # distance relative to the size
 RATIO = 0.01  # area ratios this near to 1 count as 1
-MIDPOINTS = {1: 256, 2: 32, 3: 12}  # even, so that a fold in the middle lies between cells
+# Even, so that a fold in the middle lies between cells; with other powers of 2, so that no middle lies on a diagonal.
+MIDPOINTS = {1: (256,), 2: (32, 34), 3: (12, 10, 16)}
+ALONG = {1: 0, 2: 32, 3: 12}  # places along each edge
 STEP = 1e-5
 JUST_INSIDE = 1e-4
-COLLAPSED = 1e-6  # cells smaller than this share of the mean of the right map are squeezed to nothing
+NOTHING = 64 * float(np.finfo(float).eps) / STEP  # a difference quotient of less, relative to the points, is rounding
+PARALLEL = 1e-6  # sine of the angle at which two derivatives are one direction
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +46,7 @@ class Measured:
     cloud: Cloud
     points: Array  # at the midpoints
     elements: Array
-    gauge: float  # the mean element that counts as a cell of ordinary size
+    squeezed: NDArray[np.bool_]  # the cells that are squeezed to nothing
 
     @property
     def measure(self) -> float:
@@ -53,7 +56,7 @@ class Measured:
     @property
     def collapsed(self) -> float:
         """Share of the domain that is squeezed to nothing."""
-        return float((self.elements <= COLLAPSED * self.gauge).mean())
+        return float(self.squeezed.mean())
 
     @cached_property
     def probes(self) -> Array:
@@ -61,11 +64,10 @@ class Measured:
         return self.at(probe_parameters(self.n))
 
 
-def measured(at: Evaluator, n: int, gauge: float | None = None) -> Measured:
-    """Measure a map with one call of it. ``gauge``: the measure of the right map, if this is another one."""
-    middle = (np.arange(MIDPOINTS[n]) + 0.5) / MIDPOINTS[n]
-    parameters = tensor([middle] * n)
-    edges = edge_parameters(n, MIDPOINTS[n])
+def measured(at: Evaluator, n: int) -> Measured:
+    """Measure a map with one call of it."""
+    parameters = tensor([(np.arange(count) + 0.5) / count for count in MIDPOINTS[n]])
+    edges = edge_parameters(n, ALONG[n])
     shifts = [sign * STEP * np.eye(n)[i] for i in range(n) for sign in (1.0, -1.0)]
     values = at(np.concatenate([parameters, *(parameters + s for s in shifts), edges]))
     count = len(parameters)
@@ -74,14 +76,21 @@ def measured(at: Evaluator, n: int, gauge: float | None = None) -> Measured:
     derivatives = (moved[:, 0] - moved[:, 1]) / (2 * STEP)  # (n, K, 3)
     gram = np.einsum("ikc,jkc->kij", derivatives, derivatives)
     elements = np.sqrt(np.maximum(np.linalg.det(gram), 0.0))
-    mean = float(elements.mean())
+    squeezed = _squeezed(derivatives, elements, float(np.abs(values).max(initial=0.0)))
     # Searches start where the map is not squeezed: from inside a fold no derivative shows the way out.
-    live = elements > COLLAPSED * mean
+    live = ~squeezed & np.isfinite(elements)
     rim = values[count * (1 + 2 * n) :]
     kept = _distinct(rim, 2 * n)
     seeds, places = np.concatenate([parameters[live], edges[kept]]), np.concatenate([here[live], rim[kept]])
-    start = cloud(seeds, places, 1 / MIDPOINTS[n])
-    return Measured(at, n, start, here, elements, mean if gauge is None else gauge)
+    start = cloud(seeds, places, 1 / MIDPOINTS[n][0])
+    return Measured(at, n, start, here, elements, squeezed)
+
+
+def _squeezed(derivatives: Array, elements: Array, largest: float) -> NDArray[np.bool_]:
+    """Where a parameter moves nothing, or two move the point along one line. A map that is only slow there is not squeezed."""
+    lengths = np.linalg.norm(derivatives, axis=-1)
+    still = (lengths <= NOTHING * largest).any(axis=0)
+    return np.asarray(still | (elements <= PARALLEL * lengths.prod(axis=0)))
 
 
 def _distinct(rim: Array, sides: int) -> NDArray[np.intp]:
@@ -129,17 +138,17 @@ class SetFinding:
         return float(whole) if whole and math.isclose(self.ratio, whole, rel_tol=0.02) else self.ratio
 
 
-def on(points: Array, other: Evaluator, start: Cloud, size: float) -> bool:
+def on(points: Array, other: Evaluator, start: Cloud, size: float, same: float = SAME) -> bool:
     """Whether all points lie on the other map. A few are tried first: most sets that differ, differ there."""
     few = points[:: max(1, len(points) // 9)]
-    enough = SAME * size
+    enough = same * size
     return all((nearest(other, start, some, enough / 10).distances <= enough).all() for some in (few, points))
 
 
-def compare_sets(yours: Measured, right: Measured, size: float) -> SetFinding | None:
-    """Same set, covered n times, part or more of it; None where neither lies on the other."""
-    inside = on(yours.probes, right.at, right.cloud, size)
-    covers = on(right.probes, yours.at, yours.cloud, size)
+def compare_sets(yours: Measured, right: Measured, size: float, same: float = SAME) -> SetFinding | None:
+    """Same set, covered n times, part or more of it; None where neither lies on the other, up to ``same`` times the size."""
+    inside = on(yours.probes, right.at, right.cloud, size, same)
+    covers = on(right.probes, yours.at, yours.cloud, size, same)
     ratio = yours.measure / right.measure if right.measure else 1.0
     collapsed = yours.collapsed
     if inside and covers:

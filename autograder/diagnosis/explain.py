@@ -15,8 +15,8 @@ from autograder import messages
 from autograder.comparison import values as value_rungs
 from autograder.comparison.answers import Answer, Numbers, Raised
 from autograder.comparison.gates import Gate, Trouble, error_gate
-from autograder.comparison.maps import Sampled, Shifted
-from autograder.comparison.sets import SetFinding
+from autograder.comparison.maps import CLOSE, Sampled, Shifted
+from autograder.comparison.sets import SAME, SetFinding
 from autograder.comparison.target import Target
 from autograder.diagnosis.contrast import Contrast, contrast
 from autograder.diagnosis.holding import Told, of_data, right_places
@@ -242,6 +242,8 @@ class Explanation:
         if self.tier == "close":
             if all(is_float32(m) for m in maps):
                 return [say("wrong.close_float32")], say("look.float32")
+            if f.worst > CLOSE:  # as a set of points only
+                return [say("wrong.close_set", amount=messages.amount(SAME))], say("look.close")
             return [say("wrong.close", amount=messages.amount(f.worst))], say("look.close")
         if self.tier in ("same set", "covered", "part", "more"):
             found = next((f.sets for f in self.wrong if f.tier == self.tier and f.sets is not None), None)
@@ -257,7 +259,8 @@ class Explanation:
         names = self._names()
         times = number(found.times, 3)
         if self.tier == "same set":
-            key = "wrong.same_set_speed" if len(where.corners) == where.all_corners else "wrong.same_set"
+            key = "wrong.same_set_speed_curve" if len(names) == 1 else "wrong.same_set_speed"
+            key = key if len(where.corners) == where.all_corners else "wrong.same_set"
             return [say(key, noun=self.noun, names=listing(names))], say("look.same_set")
         if self.tier == "covered":
             if found.ratio < 1.5:

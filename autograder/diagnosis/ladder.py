@@ -114,14 +114,19 @@ def climb(finding: Finding) -> None:
 def search(finding: Finding, call: Callable[..., Any] | None) -> None:
     """The rungs for sets and motions. Without ``call`` only what needs no further call: moved, point by point."""
     f = finding.on_ladder
-    if f is None or finding.tier != "different" or f.target.exercise.kind == "field":
+    if f is None or f.target.exercise.kind == "field":
+        return
+    if finding.tier == "close":
+        _same_after_all(finding, f, call)
+    if finding.tier != "different":
         return
     probe = Probe(finding.gated, call) if call is not None else None
     with np.errstate(all="ignore"):
         yours = _measured(finding, probe) if probe is not None and probe.possible else None
         finding.sets = _attempted(lambda: compare_sets(yours, f.target.measured, f.target.size)) if yours else None
         if finding.sets is not None:
-            finding.tier = finding.sets.tier
+            full = f.target.exercise.tier_credit(finding.sets.tier) == 1.0
+            finding.tier = "close" if full and yours and not _same(yours, f.target) else finding.sets.tier
             return
         finding.moved = moved(f)
         if finding.moved is None and yours is not None:
@@ -130,8 +135,26 @@ def search(finding: Finding, call: Callable[..., Any] | None) -> None:
         finding.tier = "moved"
 
 
+def _same_after_all(finding: Finding, f: Sampled, call: Callable[..., Any] | None) -> None:
+    """The right set at hardly another speed is close too. Where that set is worth more, it is looked for."""
+    exercise = f.target.exercise
+    if call is None or exercise.tier_credit("same set") <= exercise.tier_credit("close"):
+        return
+    with np.errstate(all="ignore"):
+        yours = _measured(finding, Probe(finding.gated, call))
+        found = _same(yours, f.target) if yours is not None else None
+    if found is not None:
+        finding.tier, finding.sets = "same set", found
+
+
+def _same(yours: Measured, target: Target) -> SetFinding | None:
+    """The right set, met to the exercise's tolerance as an identical map must be: what full marks ask for."""
+    found = _attempted(lambda: compare_sets(yours, target.measured, target.size, target.allowed / target.size))
+    return found if found is not None and found.tier == "same set" else None
+
+
 def _measured(finding: Finding, probe: Probe) -> Measured | None:
-    return _attempted(lambda: measured(probe, len(finding.target.names), finding.target.measured.measure))
+    return _attempted(lambda: measured(probe, len(finding.target.names)))
 
 
 def _attempted(look: Callable[[], T | None]) -> T | None:

@@ -77,6 +77,7 @@ JUDGED: dict[str, str] = {
     "wrong.relabelled": "Right {noun}, other labels: {relabelled}. {normal}",
     "wrong.other_start": "Right {noun}, but it starts elsewhere: {shift}. {relabelled}",
     "wrong.close": "Very close, but not the same: at most {amount} away.",
+    "wrong.close_set": "Very close to the right set of points, but not the same: less than {amount} away.",
     "wrong.close_float32": "Right to the seven digits that float32 holds, but float64 holds sixteen.",
     "wrong.different": "Your {noun} is another one than asked for: up to {amount} away.",
     "wrong.different_inside": "It differs inside only: all edges are right, but between them it is up to {amount} away.",
@@ -86,7 +87,8 @@ JUDGED: dict[str, str] = {
     "wrong.same_set": (
         "Right {noun} as a set of points, but traced in another way: the point at the same {names} is another one."
     ),
-    "wrong.same_set_speed": "Right {noun}, with the same corners, but {names} run at another speed along it.",
+    "wrong.same_set_speed": "Right {noun}, with the same corners, but {names} run at another speed along it, or slantwise.",
+    "wrong.same_set_speed_curve": "Right {noun}, with the same ends, but {names} runs at another speed along it.",
     "wrong.covered": "Right set of points, but your {noun} covers it {times} times.",
     "wrong.collapsed": "Right set of points, but {percent} of the parameter domain is squeezed into nothing.",
     "wrong.part": "Your {noun} covers only a part of the right one: about {percent} of it.",

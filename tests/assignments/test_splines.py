@@ -159,18 +159,27 @@ def test_other_weights_that_give_the_same_quarter_are_right(row):
     assert (verdict.outcome, verdict.fraction, verdict.tier) == ("passed", 1.0, "same set"), verdict.message
 
 
+@pytest.mark.parametrize("c", [1 + 1e-6, 1.001, 1.0095, 1.02])
+def test_weights_that_hardly_change_the_speed_are_right_too(c):
+    """So near to the reference point by point that it could be a rounded constant: the set decides."""
+    verdict = judge(A7["nurbs_quarter_cylinder"], lambda r, h: quarter(r, h, (1, c * ROOT, c**2)), seed=b"hidden")
+    assert (verdict.outcome, verdict.fraction, verdict.tier) == ("passed", 1.0, "same set"), verdict.message
+
+
 @pytest.mark.parametrize(
     ("answer", "fraction", "tier"),
     [
         (lambda r, h: quarter(r, h, turned=True), 0.5, "relabelled"),
         (lambda r, h: quarter(r, h, (1, 0.7071, 1)), 0.8, "close"),
+        (lambda r, h: quarter(r, h, (1, 0.707107, 1)), 0.8, "close"),
+        (lambda r, h: quarter(r, h, (1, 2 * 0.707107, 4)), 0.8, "close"),
         (lambda r, h: quarter(r, h, (1, 0.9, 1)), 0.0, "different"),
         (lambda r, h: quarter(r, h)[0], 0.0, "shape"),
         (lambda r, h: quarter(r, h)[::-1], 0.0, "shape"),
         (lambda r, h: (quarter(r, h)[0].swapaxes(0, 1), quarter(r, h)[1].T), 0.0, "shape"),
         (lambda r, h: quarter(r, h, (1, -ROOT, 1)), 0.0, "shape"),
     ],
-    ids=["turned", "rounded", "another", "net-only", "weights-first", "w-first", "negative"],
+    ids=["turned", "rounded", "less", "at-another-speed", "another", "net-only", "weights-first", "w-first", "negative"],
 )
 def test_answers_that_are_not_the_quarter(answer, fraction, tier):
     verdict = judge(A7["nurbs_quarter_cylinder"], answer, seed=b"hidden")

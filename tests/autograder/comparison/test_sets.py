@@ -37,6 +37,33 @@ def test_a_fold_to_nothing_counts_as_collapsed():
     assert found.collapsed == pytest.approx(0.75, abs=0.03)
 
 
+def test_two_derivatives_along_one_line_count_as_collapsed():
+    """Beyond the diagonal the square is pushed onto it: neither derivative is nothing there."""
+
+    def pushed(u, w):
+        beyond = np.maximum(u + w - 1, 0) / 2
+        return u - beyond, w - beyond, 0 * u
+
+    assert measured(as_points(pushed), 2).collapsed == pytest.approx(0.5, abs=0.03)
+
+
+def test_a_slow_start_is_not_collapsed():
+    """Towards a pole u³ makes the first row of cells smaller than 1e-7 of the mean: small, but not nothing."""
+
+    def ball(u, w):
+        south = np.pi * (u**3 - 0.5)
+        return np.cos(south) * np.cos(TURN * w), np.cos(south) * np.sin(TURN * w), np.sin(south)
+
+    assert measured(as_points(ball), 2).collapsed == 0.0
+
+
+def test_a_fold_along_a_diagonal_is_measured_twice():
+    found = measured(as_points(lambda u, w: (*np.where(u + w > 1, (1 - w, 1 - u), (u, w)), 0 * u)), 2)
+    assert found.measure == pytest.approx(1.0, rel=1e-9)
+    crossed = measured(as_points(lambda u, w: (np.minimum(u, w), np.maximum(u, w), 0 * u)), 2)
+    assert crossed.measure == pytest.approx(1.0, rel=1e-9)
+
+
 def test_a_thin_map_is_not_collapsed():
     assert measured(as_points(lambda u, w: (u, 1e-3 * w, 0 * u)), 2).collapsed == 0.0
 

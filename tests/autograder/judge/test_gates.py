@@ -223,6 +223,15 @@ class TestGates:
 
         assert "mesh" in self.message(tube, call, "not pointwise")
 
+    @pytest.mark.parametrize(("form", "ndim"), [("mesh", 2), ("one pair of parameters", 0)])
+    def test_what_is_right_in_a_list_only_is_not_pointwise(self, tube, form, ndim):
+        """By five millionths: less than float32 may be off, but this is no float32."""
+
+        def call(u, w, r, h):
+            return right(u, w, r, h * (1 + 5e-6 * (np.ndim(u) == ndim)))
+
+        assert form in self.message(tube, call, "not pointwise")
+
     def test_random_numbers_are_not_repeatable(self, tube):
         rng = np.random.default_rng(1)
         assert "two different answers" in self.message(tube, lambda *a: right(*a) + rng.uniform(), "not repeatable")

@@ -244,6 +244,19 @@ class TestVerdict:
         assert np.shape(figure.yours) == (13, 13, 3)
 
 
+class TestAtTheTolerance:
+    @pytest.mark.parametrize("amount", [0.7e-9, 1.2e-9, 1.7e-9])
+    def test_hardly_off_in_all_coordinates_is_close_and_not_relabelled(self, tube, amount):
+        """Each coordinate is within the tolerance, the distance is not: no relabelling explains that."""
+
+        def call(u, w, r, h):
+            return right(u, w, r, h) + amount * np.hypot(np.sqrt(8) * r, h)
+
+        verdict = judge(tube, call)
+        assert (verdict.tier, verdict.symmetries) == ("close", ())
+        assert judge(tube, lambda *a: 0.5 * call(*a) + 0.5 * right(*a)).tier == ("identical" if amount < 1e-9 else "close")
+
+
 class TestOtherDimensions:
     def test_a_curve_run_backwards(self, helix):
         verdict = judge(helix, lambda u, r, pitch: helix.reference(1 - np.asarray(u), r, pitch))
@@ -251,6 +264,10 @@ class TestOtherDimensions:
 
     def test_a_curve_at_another_speed(self, helix):
         assert judge(helix, lambda u, r, pitch: helix.reference(np.asarray(u) ** 2, r, pitch)).tier == "same set"
+
+    def test_a_curve_has_ends_and_one_parameter(self, helix):
+        told = judge(helix, lambda u, r, pitch: helix.reference(np.asarray(u) ** 2, r, pitch)).message
+        assert "with the same ends, but u runs at another speed along it." in told
 
     def test_a_part_of_a_curve(self, helix):
         assert judge(helix, lambda u, r, pitch: helix.reference(np.asarray(u) / 2, r, pitch)).tier == "part"

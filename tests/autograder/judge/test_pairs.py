@@ -177,6 +177,8 @@ PAIRS = [
     ("sphere, upper half twice", sphere, lambda u, w: sphere(u, w, south=0.0), "part"),
     ("sphere, axis tilted", sphere, placed(sphere, ODD), "same set"),
     ("sphere, even heights", sphere, traced(sphere, lambda u, w: np.arcsin(2 * u - 1) / np.pi + 0.5), "same set"),
+    ("sphere, slow at one pole", sphere, traced(sphere, lambda u, w: u**3), "same set"),
+    ("sphere, slow at both", sphere, traced(sphere, lambda u, w: u**3 * (10 - 15 * u + 6 * u**2)), "same set"),
     ("sphere, elsewhere", sphere, placed(sphere, shift=(1, 2, 3)), "moved"),
     (
         "sphere, radius not shrunk",
