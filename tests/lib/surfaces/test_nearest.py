@@ -70,3 +70,26 @@ def test_beyond_an_edge_the_edge_is_nearest():
     assert (u, w) == (pytest.approx(0.25), 1)
     assert distance == pytest.approx(3)
     assert dx.Plane((0, 0, 0), (1, 0, 0), (0, 1, 0)).nearest((3, 3, 1))[:2] == (1, 1)
+
+
+def facets(seed):
+    """A surface of creases: order 2, so every inner knot line is one."""
+    return dx.BSplinePatch(2 * np.random.default_rng(seed).normal(size=(6, 5, 3)), 2, 3)
+
+
+def uneven(seed):
+    """Nearly all of it lies in slivers along the sides, since a few weights are far larger than their neighbours."""
+    rng = np.random.default_rng(seed)
+    return dx.NurbsPatch(2 * rng.normal(size=(5, 3, 3)), 10 ** rng.uniform(-1.5, 1.5, (5, 3)), 4, 3)
+
+
+@pytest.mark.parametrize("made", [facets, uneven])
+@pytest.mark.parametrize("seed", range(4))
+def test_creases_and_unequal_weights_hide_no_nearer_point(made, seed):
+    """A search that meets a crease goes on along it; where the surface runs fast it is sampled more densely."""
+    surface, points = made(seed), 3 * np.random.default_rng(seed).normal(size=(40, 3))
+    dense = np.linspace(0, 1, 301)
+    grid = surface(dense[:, None], dense[None, :]).reshape(-1, 3)
+    found = surface.nearest(points)
+    assert (found.distance <= np.linalg.norm(points[:, None] - grid, axis=-1).min(axis=1) + 1e-8).all()
+    assert np.allclose(np.linalg.norm(surface(found.u, found.w) - points, axis=1), found.distance, atol=1e-14)
