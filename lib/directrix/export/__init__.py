@@ -50,7 +50,7 @@ def write(path: str | Path, *forms: Any, resolution: int = 64) -> Path:
     if not forms:
         raise GeometryError("give the forms to write: write(path, surface, ...).")
     if suffix in MESHES:
-        write_mesh(path.with_suffix(suffix), forms, resolution)
+        write_mesh(path, forms, resolution)
     elif suffix in STEPS:
         write_step(path, forms)
     elif suffix == ".json":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -89,18 +90,27 @@ def _welded(vertices: Array, triangles: NDArray[np.int64]) -> tuple[Array, NDArr
 
 
 def write_mesh(path: Path, forms: tuple[Any, ...], resolution: int) -> None:
-    """One file of all forms, in the format of its suffix: .stl (binary), .obj, .glb, .gltf or .ply."""
+    """One file of all forms, in the format of its suffix: .stl (binary), .obj, .glb, .gltf (in one file) or .ply."""
+    kind = path.suffix.lower()[1:]
     try:
         import trimesh
     except ImportError:
         raise GeometryError(MISSING.format(suffix=path.suffix)) from None
     parts = [trimesh.Trimesh(*mesh(form, resolution), process=False) for form in forms]
-    if path.suffix in {".stl", ".ply", ".obj"}:
-        trimesh.util.concatenate(parts).export(path)
+    if kind in {"stl", "ply", "obj"}:
+        whole = trimesh.util.concatenate(parts)
+        more = {"digits": _decimals(whole.vertices)} if kind == "obj" else {}
+        whole.export(path, file_type=kind, **more)
         return
     scene = trimesh.Scene(parts)
-    if path.suffix == ".gltf":
-        for name, data in scene.export(file_type="gltf").items():
-            (path if name == "model.gltf" else path.with_name(name)).write_bytes(data)
+    if kind == "gltf":
+        # Buffers of their own would have the same names for every file in the folder.
+        path.write_bytes(scene.export(file_type="gltf", embed_buffers=True)["model.gltf"])
         return
-    scene.export(path)
+    scene.export(path, file_type=kind)
+
+
+def _decimals(vertices: Array) -> int:
+    """Decimals that keep ten digits of small forms too: OBJ holds decimal numbers without an exponent."""
+    largest = float(np.abs(vertices).max(initial=0.0)) or 1.0
+    return max(8, 10 - math.floor(math.log10(largest)))

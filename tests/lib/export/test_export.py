@@ -152,6 +152,29 @@ def test_mesh_files_are_read_back(suffix, tmp_path):
     assert read.area == pytest.approx(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, rel=1e-5)
 
 
+@pytest.mark.parametrize("suffix", [".STL", ".Obj", ".GLB", ".glTF", ".PLY", ".JSON", ".STEP"])
+def test_the_file_has_the_name_that_was_asked_for(suffix, tmp_path):
+    path = export.write(tmp_path / f"ball{suffix}", dx.Sphere(2), resolution=4)
+    assert [file.name for file in tmp_path.iterdir()] == [path.name] == [f"ball{suffix}"]
+
+
+def test_a_second_file_in_the_folder_leaves_the_first_as_it_was(tmp_path):
+    """A glTF file holds its own buffers: those beside it would have the same names for each."""
+    trimesh = pytest.importorskip("trimesh")
+    first = export.write(tmp_path / "ball.gltf", dx.Sphere(2), resolution=8)
+    area = trimesh.load(first, force="mesh").area
+    export.write(tmp_path / "tube.gltf", dx.Cylinder(1, 1), resolution=6)
+    assert trimesh.load(first, force="mesh").area == area
+
+
+@pytest.mark.parametrize("radius", [1e-9, 1e-6, 1e-3, 1.0, 1e6])
+def test_an_obj_file_keeps_its_digits_whatever_the_unit(radius, tmp_path):
+    """OBJ has no exponents: with a fixed number of decimals a ball of a micrometre, in metres, was off by a percent."""
+    path = export.write(tmp_path / "ball.obj", dx.Sphere(radius), resolution=8)
+    lines = [line.split()[1:] for line in path.read_text().splitlines() if line.startswith("v ")]
+    assert np.allclose(np.linalg.norm(np.array(lines, dtype=float), axis=1), radius, rtol=1e-9, atol=0)
+
+
 @pytest.mark.parametrize(
     "form",
     [
