@@ -12,7 +12,7 @@ from directrix import checks
 from directrix.errors import GeometryError, ShapeError
 from directrix.plot import palette, traces
 from directrix.plot.comparing import LINES, edges_and_lines
-from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, size_of
+from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, sample_enough, size_of
 from directrix.plot.scene import short
 
 NETS = ("control_net", "control_points", "points")
@@ -61,11 +61,10 @@ def knots_of(f: Callable[..., Any], knots: Sequence[ArrayLike] | bool | None) ->
     return at_u, at_w
 
 
-def knot_lines(f: Callable[..., Any], t: Array, knots: Knots) -> list[dict[str, Any]]:
-    """The lines u = knot and w = knot, sampled at t, lifted off the surface on both sides like all lines on it."""
+def knot_lines(points: Array, u: Array, w: Array, knots: Knots) -> list[dict[str, Any]]:
+    """The lines u = knot and w = knot of a surface whose points are given at u, w and the knots; lifted off it as all lines."""
     at_u, at_w = knots
-    u, w = np.union1d(t, at_u), np.union1d(t, at_w)
-    points = sample(f, u, w)
+    u, w = np.union1d(u, at_u), np.union1d(w, at_w)
     lift = 1.5 * traces.LIFT * size_of(points) * grid_normals(points)
     across = [
         line
@@ -75,19 +74,19 @@ def knot_lines(f: Callable[..., Any], t: Array, knots: Knots) -> list[dict[str, 
     return [traces.line(across, colour=palette.KNOT, width=6, name="knots")] if across else []
 
 
-def further_surfaces(also: Sequence[Callable[..., Any]], samples: int) -> list[dict[str, Any]]:
-    """More surfaces in the same scene, with their parameter lines."""
+def further_surfaces(also: Sequence[Callable[..., Any]], counts: Sequence[int]) -> list[dict[str, Any]]:
+    """More surfaces in the same scene, with their parameter lines; for ``counts`` see :func:`sample_enough`."""
     drawn = []
-    t = np.linspace(0.0, 1.0, samples)
-    edges, inner = edges_and_lines(samples, LINES)
     for f in also:
         if count_parameters(f) != 2:
             raise GeometryError("also takes further surfaces f(u, w); for curves and points there is curves={name: curve}")
-        points = sample(f, t, t)
+        u, w, (points,) = sample_enough(counts, lambda u, w, f=f: [sample(f, u, w)])  # type: ignore[misc]
         size = size_of(points)
-        drawn.append(traces.surface(points, t, t, name=short(type(f).__name__)))
-        for at, width in ((inner, 1.5), (edges, 5)):
-            drawn += [traces.parameter_lines(points, size, along=along, at=at, width=width) for along in "uw"]
+        drawn.append(traces.surface(points, u, w, name=short(type(f).__name__)))
+        rows, columns = edges_and_lines(len(u), LINES), edges_and_lines(len(w), LINES)
+        for which, width in ((1, 1.5), (0, 5)):
+            drawn.append(traces.parameter_lines(points, size, along="u", at=columns[which], width=width))
+            drawn.append(traces.parameter_lines(points, size, along="w", at=rows[which], width=width))
     return drawn
 
 

@@ -18,6 +18,7 @@ from directrix.errors import CurveError, GeometryError, ShapeError
 
 Array = NDArray[np.float64]
 LETTERS = {1: ("u",), 2: ("u", "w"), 3: ("u", "v", "w")}
+BEND = np.cos(np.radians(10.0))  # of a line at a sample: in a full turn of 32 steps facets are seen, of 64 hardly
 
 
 def count_parameters(f: Callable[..., Any]) -> int:
@@ -81,6 +82,31 @@ def sample(f: Callable[..., Any], *parameters: Array) -> Array:
             got=points.shape,
         )
     return np.where(np.isfinite(points), points, np.nan)
+
+
+def sample_enough(
+    counts: Sequence[int], sampled: Callable[[Array, Array], Sequence[Array]]
+) -> tuple[Array, Array, Sequence[Array]]:
+    """Parameters u (n,) and w (m,), and surfaces sampled at them, (n, m, 3) each, as ``sampled(u, w)`` gives them.
+
+    n is the first of ``counts``, or the last where lines along u would be seen to have corners, or have holes; so is m for w.
+    A learner's function may well be slow, and a notebook heavy: most surfaces bend much one way only, or not at all.
+    """
+    few, many = np.linspace(0.0, 1.0, counts[0]), np.linspace(0.0, 1.0, counts[-1])
+    found = sampled(few, few)
+    bent = [len(counts) > 1 and any(_bends(points, axis) for points in found) for axis in (0, 1)]
+    u, w = (many if one else few for one in bent)
+    return u, w, sampled(u, w) if any(bent) else found
+
+
+def _bends(points: Array, axis: int) -> bool:
+    """Whether a line along an axis of a sampled surface (n, m, 3) bends at a sample so much that it is seen, or has a hole."""
+    steps = np.diff(points if axis == 0 else points.swapaxes(0, 1), axis=0)
+    squares = np.einsum("ijk,ijk->ij", steps, steps)
+    along = np.einsum("ijk,ijk->ij", steps[1:], steps[:-1])
+    product = np.sqrt(squares[1:] * squares[:-1])
+    still = 1e-18 * np.nanmax(squares, initial=0.0)  # at a pole all points of a line are one
+    return not ((along >= BEND * product) | (product <= still)).all()
 
 
 def grid_normals(points: Array) -> Array:

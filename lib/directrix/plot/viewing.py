@@ -14,15 +14,17 @@ from directrix.plot import palette, traces
 from directrix.plot.assembling import figure_of
 from directrix.plot.beside import Knots, closed_axes, further_curves, further_surfaces, knot_lines, knots_of, measured, net_of
 from directrix.plot.comparing import FARTHER, LINES, comparison, edges_and_lines, letters
-from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, size_of
+from directrix.plot.sampling import Array, count_parameters, grid_normals, sample, sample_enough, size_of
 from directrix.plot.scene import Box, coloured, layout, legend, scene, short, word
 from directrix.plot.square import parameter_square
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
-SAMPLES = 65  # 64 steps: eighths and quarters fall on samples
 MOST = 121
+CURVE = 65
+SURFACE, FACE = (33, 65), (17, 33)  # the fewest with which it looks round; eighths and quarters fall on samples
+COMPARED = 33, 49  # usually, at most
 HEIGHT = 460
 NORMALS = 9  # needles each way
 COLOURS = ("gaussian", "mean")
@@ -44,7 +46,7 @@ def view(
     deviations: ArrayLike | None = None,
     title: str | None = None,
     names: tuple[str, str] = ("reference", "yours"),
-    samples: int = SAMPLES,
+    samples: int | None = None,
     lines: int = LINES,
     height: int | None = None,
 ) -> Figure:
@@ -56,7 +58,7 @@ def view(
     Parameters
     ----------
     f : callable
-        Called once with arrays, u of shape (n, 1) and w of shape (1, m); returns points (n, m, 3). For a curve u (n,) and
+        Called with arrays, u of shape (n, 1) and w of shape (1, m); returns points (n, m, 3). For a curve u (n,) and
         points (n, 3). A solid is drawn as its six faces.
     against : callable, optional
         The reference of a comparison. Two scenes on the same axes, whose cameras turn together: ``against`` on the left, f
@@ -86,8 +88,9 @@ def view(
         A line above the picture.
     names : (str, str)
         What the two scenes of a comparison are called, left and right.
-    samples : int
-        Samples each way, 2 to 121.
+    samples : int, optional
+        Samples each way, 2 to 121. By default as few as a surface needs to look round, 33 or 65, on the faces of a solid 17
+        or 33; a comparison has 33 (49 at most), a curve 257.
     lines : int
         Parts into which the parameter lines divide each range; 1 draws the edges only.
     height : int, optional
@@ -110,23 +113,25 @@ def view(
     >>> figure.data[0].type, figure.layout.title.text
     ('surface', 'z = xy')
     """
-    if not 2 <= samples <= MOST:
+    if samples is not None and not 2 <= samples <= MOST:
         raise GeometryError(f"samples must be from 2 to {MOST}; got {samples}. More would only make the notebook heavy.")
     count = count_parameters(f)
     if against is not None:
         built = _against(f, against, count, names, title, samples)
     elif count == 1:
-        built = _curve(f, title, samples, mark)
+        built = _curve(f, title, samples or CURVE, mark)
     elif count == 3:
-        built = _solid(f, title, min(samples, 33))
+        built = _solid(f, title, samples)
     else:
         built = _surface(
             f, title, samples, lines, colour=colour, normals=normals, square=square, mark=mark, knots=knots_of(f, knots)
         )
     polygon = net_of(f, net)
     closed = closed_axes(f) if net is True else []
-    extra = further_surfaces(also, samples) + ([] if polygon is None else traces.net(polygon, closed))
-    extra += further_curves(curves or {}, samples) + ([] if points is None else [measured(points, deviations)])
+    extra = further_surfaces(also, SURFACE if samples is None else (samples,)) + (
+        [] if polygon is None else traces.net(polygon, closed)
+    )
+    extra += further_curves(curves or {}, samples or CURVE) + ([] if points is None else [measured(points, deviations)])
     if extra:
         built["data"] += extra
         if against is None:
@@ -142,30 +147,34 @@ def view(
 
 
 def _surface(
-    f: Callable[..., Any], title: str | None, samples: int, lines: int, *,
+    f: Callable[..., Any], title: str | None, samples: int | None, lines: int, *,
     colour: str | None, normals: bool, knots: Knots | None, square: bool, mark: Sequence[float] | None,
 ) -> dict[str, Any]:  # fmt: skip
-    u = w = np.linspace(0.0, 1.0, samples)
-    points = sample(f, u, w)
+    counts = SURFACE if (SURFACE[0] - 1) % lines == 0 else SURFACE[-1:]  # on few samples such lines would stand unevenly
+    at_u, at_w = knots or (np.empty(0), np.empty(0))
+    u, w, (every,) = sample_enough(
+        counts if samples is None else (samples,), lambda u, w: [sample(f, np.union1d(u, at_u), np.union1d(w, at_w))]
+    )
+    points = every if knots is None else every[np.ix_(np.isin(np.union1d(u, at_u), u), np.isin(np.union1d(w, at_w), w))]
     name = short(_name_of(f))
-    rows = edges_and_lines(samples, lines)
+    rows, columns = edges_and_lines(len(u), lines), edges_and_lines(len(w), lines)
     built = [traces.surface(points, u, w, name=name) if colour is None else _curved(f, points, u, w, colour, name)]
     size = size_of(points)
     directions = grid_normals(points)
     drawn = [
-        traces.parameter_lines(points, size, along="u", at=rows[1], width=1.5, normals=directions),
+        traces.parameter_lines(points, size, along="u", at=columns[1], width=1.5, normals=directions),
         traces.parameter_lines(points, size, along="w", at=rows[1], width=1.5, normals=directions),
-        traces.parameter_lines(points, size, along="u", at=rows[0], width=5, normals=directions),
+        traces.parameter_lines(points, size, along="u", at=columns[0], width=5, normals=directions),
         traces.parameter_lines(points, size, along="w", at=rows[0], width=5, normals=directions),
     ]
     built += [trace for trace in drawn if len(trace["x"])] + letters(points, size, "scene", normals=directions)
     notes = [legend()]
     if knots is not None:
-        built += knot_lines(f, u, knots)
+        built += knot_lines(every, u, w, knots)
         notes.append(coloured("━ knots", palette.KNOT))
     if normals:
         built[0]["opacity"] = 0.8  # a normal may point to the side that is turned away
-        built.append(_needles(f, samples, points, u))
+        built.append(_needles(f, points, u, w))
         notes.append(coloured("━ normals", palette.NORMAL))
     if mark is not None:
         place = _place(mark, 2)
@@ -177,13 +186,13 @@ def _surface(
     alt = f"A 3-D picture of the surface {name} with its parameter lines."
     figure = layout(height=HEIGHT, title=title, alt=alt)
     if holes:
-        said = f"{holes} of {samples * samples} points are not finite"
+        said = f"{holes} of {len(u) * len(w)} points are not finite"
         notes.append(said)
         figure["meta"]["alt"] += f" {said}."
     domain = (0.0, 1.0)
     if square:
         domain = (0.0, 0.62)
-        more, axes = parameter_square(rows[1], samples, knots=knots, mark=mark, domain=(0.68, 0.98))
+        more, axes = parameter_square(rows[1], len(u), knots=knots, mark=mark, domain=(0.68, 0.98))
         built += more
         figure |= axes
     figure |= {
@@ -217,26 +226,23 @@ def _curve(f: Callable[..., Any], title: str | None, samples: int, mark: Sequenc
     return {"data": built, "layout": figure, "points": points}
 
 
-def _solid(f: Callable[..., Any], title: str | None, samples: int) -> dict[str, Any]:
+def _solid(f: Callable[..., Any], title: str | None, samples: int | None) -> dict[str, Any]:
     """The six faces of f(u, v, w): on each, one parameter is 0 or 1 and the other two run."""
-    t, ends = np.linspace(0.0, 1.0, samples), np.array([0.0, 1.0])
-    faces = []
     colours = {"u": palette.U, "v": palette.NORMAL, "w": palette.W}
-    for held, axis in enumerate("uvw"):
-        axes = [t, t, t]
-        axes[held] = ends
-        both = np.moveaxis(sample(f, *axes), held, 0)
-        faces += [(f"{axis} = {end}", "uvw".replace(axis, ""), both[end]) for end in (0, 1)]
+    named = [(f"{axis} = {end}", "uvw".replace(axis, "")) for axis in "uvw" for end in (0, 1)]
+    counts = FACE if samples is None else (min(samples, FACE[-1]),)
+    u, w, faces = sample_enough(counts, lambda u, w: _faces(f, max(u, w, key=len)))
+    t = max(u, w, key=len)
+    inner = edges_and_lines(len(t), 4)[1]
     built: list[dict[str, Any]] = []
-    for name, running, points in faces:
+    for (name, running), points in zip(named, faces, strict=True):
         built.append(traces.surface(points, t, t, name=name, letters=(running[0], running[1])))
-        inner = edges_and_lines(samples, 4)[1]
         lift = traces.LIFT * size_of(points) * grid_normals(points)
         for side in (points + lift, points - lift):
             for letter, way in ((running[0], side.transpose(1, 0, 2)), (running[1], side)):
                 built.append(traces.line([way[i] for i in inner], colour=colours[letter], width=1.5, name=name))
                 built.append(traces.line([way[i] for i in (0, -1)], colour=colours[letter], width=4, name=name))
-    every = np.concatenate([points.reshape(-1, 3) for *_, points in faces])
+    every = np.concatenate([points.reshape(-1, 3) for points in faces])
     runs = [coloured(f"━ along {letter}", colour) for letter, colour in colours.items()]
     figure = layout(height=HEIGHT, title=title, alt=f"A 3-D picture of the solid {short(_name_of(f))}: its six faces.")
     figure |= {
@@ -246,13 +252,23 @@ def _solid(f: Callable[..., Any], title: str | None, samples: int) -> dict[str, 
     return {"data": built, "layout": figure, "points": every}
 
 
+def _faces(f: Callable[..., Any], t: Array) -> list[Array]:
+    """The faces u = 0, u = 1, v = 0 ... of a solid, sampled at t both ways, (n, n, 3) each."""
+    faces: list[Array] = []
+    for held in range(3):
+        axes = [t, t, t]
+        axes[held] = np.array([0.0, 1.0])
+        faces += [*np.moveaxis(sample(f, *axes), held, 0)]
+    return faces
+
+
 def _against(
-    f: Callable[..., Any], g: Callable[..., Any], count: int, names: tuple[str, str], title: str | None, samples: int
+    f: Callable[..., Any], g: Callable[..., Any], count: int, names: tuple[str, str], title: str | None, samples: int | None
 ) -> dict[str, Any]:
     if count == 3:
         raise GeometryError("solids are compared face by face: view(face, against=other_face)")
-    samples = samples if count == 1 else min(samples, 49)
-    axes = [np.linspace(0.0, 1.0, samples)] * count
+    each = samples or CURVE if count == 1 else min(samples or COMPARED[0], COMPARED[1])
+    axes = [np.linspace(0.0, 1.0, each)] * count
     return comparison(axes, sample(g, *axes), sample(f, *axes), names=names, title=title)
 
 
@@ -277,15 +293,14 @@ def _curved(f: Callable[..., Any], points: Array, u: Array, w: Array, colour: st
     )
 
 
-def _needles(f: Callable[..., Any], samples: int, points: Array, u: Array) -> dict[str, Any]:
-    picked = np.unique(np.linspace(0, samples - 1, min(NORMALS, samples)).round().astype(int))
+def _needles(f: Callable[..., Any], points: Array, u: Array, w: Array) -> dict[str, Any]:
+    i, j = (np.unique(np.linspace(0, len(t) - 1, min(NORMALS, len(t))).round().astype(int)) for t in (u, w))
     own = getattr(f, "normal", None)
     if own is None:
-        directions = grid_normals(points)[np.ix_(picked, picked)]
+        directions = grid_normals(points)[np.ix_(i, j)]
     else:
-        directions = np.asarray(own(u[picked][:, None], u[picked][None, :]), dtype=float)
-        directions = np.broadcast_to(directions, (len(picked), len(picked), 3))
-    return traces.normals(points[np.ix_(picked, picked)], directions, 0.09 * size_of(points))
+        directions = np.broadcast_to(np.asarray(own(u[i][:, None], w[j][None, :]), dtype=float), (len(i), len(j), 3))
+    return traces.normals(points[np.ix_(i, j)], directions, 0.09 * size_of(points))
 
 
 def _said(net: Array | None, curves: Mapping[str, Any]) -> str:

@@ -93,9 +93,12 @@ def eyes(shown):
     return [tuple(round(eye[axis], 6) for axis in "xyz") for eye in shown.evaluate(SCENES)]
 
 
-def test_hover_tells_the_parameters_of_the_point_under_the_mouse(opened):
-    """On (u, w, 0) the (u, w) that is shown must be the (x, y) that is shown: plotly.js reads customdata transposed."""
-    shown = opened(document(view(lambda u, w: np.stack(np.broadcast_arrays(3 * u, w, 0 * u * w), axis=-1), samples=31)))
+@pytest.mark.parametrize(("height", "shape"), [(0.0, (33, 33)), (0.1, (65, 33))], ids=["flat", "more samples along u"])
+def test_hover_tells_the_parameters_of_the_point_under_the_mouse(opened, height, shape):
+    """Where x = 3u and y = w, the (u, w) that is shown must be the (x, y) shown: plotly.js reads customdata transposed."""
+    figure = view(lambda u, w: np.stack(np.broadcast_arrays(3 * u, w, height * np.sin(9 * np.pi * u) + 0 * w), axis=-1))
+    assert figure.data[0].x.shape == shape
+    shown = opened(document(figure))
     seen = []
     for x, y in ((470, 200), (560, 230), (520, 215), (430, 180)):
         shown.mouse.move(x, y)

@@ -47,7 +47,7 @@ def test_lines_along_u_hold_w_and_carry_the_colour_of_u(saddle):
 
 
 def test_lines_lie_at_eighths(saddle):
-    """With 65 samples the inner lines are at w = 1/8 ... 7/8, on both sides of the surface."""
+    """The inner lines are at w = 1/8 ... 7/8, on both sides of the surface."""
     inner = next(trace for trace in view(saddle).data if trace.name == "along u" and trace.line.width < 2)
     at = np.unique(np.asarray(inner.y, dtype=float)[~np.isnan(inner.y)])
     assert set(np.round(at * 8)) == set(range(1, 8))
@@ -99,11 +99,62 @@ def test_knot_lines_lie_at_the_knots(saddle):
     knots = named(view(saddle, knots=([0.5], [0.25])), "knots")[0]
     pieces = np.split(np.stack([knots.x, knots.y]), np.flatnonzero(np.isnan(knots.x)), axis=1)
     lift = 0.01  # all lines are lifted off the surface, by less than a hundredth of its size
-    assert pieces[0][0] == pytest.approx(np.full(65, 0.5), abs=lift)
-    assert pieces[1][1][1:] == pytest.approx(np.full(65, 0.25), abs=lift)
+    assert pieces[0][0] == pytest.approx(np.full(33, 0.5), abs=lift)
+    assert pieces[1][1][1:] == pytest.approx(np.full(33, 0.25), abs=lift)
     assert np.ptp(pieces[0][1]) == pytest.approx(1, abs=lift)
     with pytest.raises(GeometryError, match=r"knots must be given as parameters in \[0, 1\]"):
         view(saddle, knots=([2.0], []))
+
+
+def test_knots_between_the_samples_cost_no_second_picture(saddle):
+    """Their lines run through points of their own; the surface is drawn at its samples, from the same calls."""
+    asked = []
+
+    def watched(u, w):
+        asked.append((u.shape, w.shape))
+        return saddle(u, w)
+
+    figure = view(watched, knots=([0.3, 0.6], [0.7]))
+    assert asked == [((35, 1), (1, 34))]
+    assert np.array_equal(figure.data[0].x[:, 0], np.linspace(0, 1, 33, dtype=np.float32))
+    assert np.array_equal(figure.data[0].y[0], np.linspace(0, 1, 33, dtype=np.float32))
+
+
+def waves(turns_u, turns_w):
+    """A surface whose lines turn so often along u and along w."""
+
+    def f(u, w):
+        a, b = 2 * np.pi * turns_u * u, 2 * np.pi * turns_w * w
+        return np.stack(np.broadcast_arrays((3 + np.cos(b)) * np.cos(a), (3 + np.cos(b)) * np.sin(a), np.sin(b)), axis=-1)
+
+    return f
+
+
+@pytest.mark.parametrize(
+    ("form", "shape"),
+    [
+        (waves(0.5, 0.0), (33, 33)),
+        (waves(1.0, 0.0), (65, 33)),  # a cylinder's facets are seen across its axis only
+        (waves(0.5, 1.0), (33, 65)),
+        (waves(1.0, 1.0), (65, 65)),
+        (dx.Sphere(2), (33, 65)),  # half a turn and a full one; at the poles a line is a point
+        (lambda u, w: np.stack(np.broadcast_arrays(u, w, np.abs(u - 0.4)), axis=-1), (65, 33)),  # a crease
+        (lambda u, w: np.stack(np.broadcast_arrays(u, w, 1 / (u + w)), axis=-1), (65, 65)),  # a hole
+    ],
+    ids=["half a turn", "cylinder", "across", "torus", "sphere", "crease", "hole"],
+)
+def test_a_surface_has_as_many_samples_as_it_needs_to_look_round(form, shape):
+    """33 each way, 65 where lines would have corners; whoever wants another number has it."""
+    figure = view(form)
+    assert figure.data[0].x.shape == shape
+    assert figure.data[0].customdata.shape == (*shape[::-1], 2)
+    assert view(form, samples=21).data[0].x.shape == (21, 21)
+
+
+def test_lines_that_few_samples_would_put_unevenly_have_more(saddle):
+    """Tenths lie nearer to one of 64 steps than to one of 32."""
+    assert view(saddle, lines=10).data[0].x.shape == (65, 65)
+    assert view(saddle, lines=16).data[0].x.shape == (33, 33)
 
 
 def test_the_square_marks_the_same_place(saddle):
@@ -133,6 +184,16 @@ def test_a_solid_is_drawn_as_its_six_faces():
     assert set(np.ravel(faces[3].y)) == {1.0}
     assert "<b>u = " in faces[3].hovertemplate
     assert ", w = " in faces[3].hovertemplate
+
+
+@pytest.mark.parametrize(("angle", "count"), [(np.pi / 2, 17), (2 * np.pi, 33)])
+def test_a_round_solid_has_more_samples(angle, count):
+    """All six faces alike."""
+
+    def ring(u, v, w):
+        return np.stack(np.broadcast_arrays((1 + v) * np.cos(angle * u), (1 + v) * np.sin(angle * u), w), axis=-1)
+
+    assert {trace.x.shape for trace in view(ring).data if trace.type == "surface"} == {(count, count)}
 
 
 def test_further_curves_and_points_stand_in_the_scene(tube):
