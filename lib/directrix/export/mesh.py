@@ -98,9 +98,8 @@ def write_mesh(path: Path, forms: tuple[Any, ...], resolution: int) -> None:
         raise GeometryError(MISSING.format(suffix=path.suffix)) from None
     parts = [trimesh.Trimesh(*mesh(form, resolution), process=False) for form in forms]
     if kind in {"stl", "ply", "obj"}:
-        whole = trimesh.util.concatenate(parts)
-        more = {"digits": _decimals(whole.vertices)} if kind == "obj" else {}
-        whole.export(path, file_type=kind, **more)
+        more = {"digits": max(_decimals(part.vertices) for part in parts)} if kind == "obj" else {}
+        trimesh.util.concatenate(parts).export(path, file_type=kind, **more)
         return
     scene = trimesh.Scene(parts)
     if kind == "gltf":
