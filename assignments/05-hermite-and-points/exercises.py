@@ -581,6 +581,12 @@ def tangents_agree_in_a_corner(rng):
     return {"G": G}
 
 
+@patch_normal.data
+def a_tiny_patch(rng):
+    """Below a micrometre across, in metres: S_u × S_w is some 1e-12 long, and has a direction all the same."""
+    return {"G": 1e-7 * curly(rng, twist=4.0)}
+
+
 @patch_normal.data(blind=True)
 def lies_flat(rng):
     """A curved map of a plane piece: all normals are (0, 0, 1)."""
@@ -627,6 +633,14 @@ def _(u, w, G):
     length = np.linalg.norm(n)
     shape = np.broadcast_shapes(np.shape(u), np.shape(w))
     return np.broadcast_to(n / length if length else n, (*shape, 3))
+
+
+@patch_normal.mistake("absolute_border", credit=0.75)
+def _(u, w, G):
+    """You compare the length of S_u × S_w with a fixed number, so that a very small patch has no normals at all. Whether two vectors
+    are parallel does not depend on the unit of length. With what must their product be compared?"""
+    n = np.cross(*_tangents(u, w, G))
+    return np.divide(n, _length(n), out=np.zeros_like(n), where=_length(n) > 1e-10)
 
 
 @patch_normal.mistake("always_up", credit=0.25)

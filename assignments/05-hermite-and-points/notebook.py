@@ -398,6 +398,7 @@ with once_written():
     swapped = patch_normal(w, u, G.swapaxes(0, 1))
     holds("exchanging u and w turns it round", swapped, -n)
     holds("no normal on the collapsed edge, and no NaN", patch_normal(u, 0, tent))
+    holds("in a unit ten million times as large", patch_normal(u, w, 1e-7 * G), n)
 
 
 # %%

@@ -159,6 +159,12 @@ def _(m, k):
     return clamped(m + k + 1, k + 1, m - k)
 
 
+@open_knots.also("order_is_degree")  # put together from three lists, which gives still more knots where m = k
+def _(m, k):
+    _must_fit(m, k)
+    return np.array([0] * (k + 1) + [*range(1, m - k)] + [m - k] * (k + 1))
+
+
 @open_knots.mistake("starts_at_1", credit=0.75)
 def _(m, k):
     """Every one of your knots is too large by 1: you began to count with 1, as some languages do. The curve would not mind; the
@@ -423,6 +429,18 @@ def _(u, w, P, k, l):
     return dx.BSplinePatch(P, k, l)(u, w) * inside[..., None]
 
 
+@bspline_patch.mistake("stretched_too_far", credit=0.5)
+def _(u, w, P, k, l):
+    """You stretched u to m - k + 2, one span beyond the last knot, where all functions are 0: there your patch falls into the
+    origin. The books that print n - k + 2 count the points from 0 to n, so that n is one *less* than their number. Which is the last
+    of your knots?"""
+    m, n, _ = np.shape(P)
+    beyond_u, beyond_w = np.asarray(u) * (m - k + 2) / (m - k + 1), np.asarray(w) * (n - l + 2) / (n - l + 1)
+    inside = (beyond_u <= 1) & (beyond_w <= 1)
+    S = dx.BSplinePatch(P, k, l)(np.minimum(beyond_u, 1.0), np.minimum(beyond_w, 1.0))
+    return np.where(inside[..., None], S, 0.0)
+
+
 @bspline_patch.mistake("one_order", credit=0.5)
 def _(u, w, P, k, l):
     """You used the order k in both directions, and l never enters. In the lecture k may be the same for u and w, or different.
@@ -537,6 +555,14 @@ def _(u, w, P, h, k, l):
 def _(u, w, P, h, k, l):
     h = np.asarray(h, dtype=float)
     return dx.NurbsPatch(P, h.ravel().reshape(h.shape, order="F"), k, l)(u, w)
+
+
+@nurbs_patch.mistake("orders_exchanged", credit=0.5)
+def _(u, w, P, h, k, l):
+    """The two orders have changed places: yours has order l along u and k along w. The four corners hide it. Which order belongs to
+    the first index of the net, and in which order do you hand the two on?"""
+    m, n, _ = np.shape(P)
+    return dx.NurbsPatch(P, h, min(l, m), min(k, n))(u, w)
 
 
 @nurbs_patch.mistake("divided_by_total", credit=0.5)

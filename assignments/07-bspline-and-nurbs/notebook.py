@@ -440,6 +440,6 @@ check(nurbs_quarter_cylinder)
 #
 # * Give your quarter the weights 1, 1, 2 along $u$. Same points? Same speed? What does `check` say of it?
 # * Four quarters make a whole circle: nine points and the knots 0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4. Why must the inner knots be double?
-# * Set `k = 2`, `k = 3`, ..., `k = 6` for the net `P` and draw each. Which one is the net itself, and which one Bezier?
+# * Draw the net `P` with `k, l = 2, 2`, then `3, 3` and `4, 4`, and at last `6, 5`. Which one is the net itself, and which one Bezier?
 #
 # Next: **A8**, where four boundary curves, and then six faces, make the whole.

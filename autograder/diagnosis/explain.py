@@ -182,7 +182,8 @@ class Explanation:
         parts: Parts = [("wrong", trouble_text(t)) for t in self.troubles]
         handled = {"vector", "mesh", "scalar"} - {t.form for t in self.troubles}
         if handled == {"scalar"} and all(t.key == "shape.raised" for t in self.troubles):
-            parts.append(("look", say("look.numbers_only")))
+            alone = self.exercise.kind != "mask" and all("broadcast" in t.facts["message"] for t in self.troubles)
+            parts.append(("look", say("look.needs_axis", name=self._names()[0]) if alone else say("look.numbers_only")))
         else:
             key = self.troubles[0].key
             look = LOOKS.get(key) or _look_of(key, len(self._names())) or "look.shape"
@@ -267,7 +268,8 @@ class Explanation:
                 return [say("wrong.collapsed", percent=messages.percent(found.collapsed))], say("look.collapsed")
             return [say("wrong.covered", noun=self.noun, times=times)], say("look.covered")
         if self.tier == "more":
-            return [say("wrong.more", noun=self.noun, times=number(found.ratio, 3))], self._reach()
+            key = "wrong.more" if found.ratio > 1.03 else "wrong.more_hardly"  # measured on a mesh
+            return [say(key, noun=self.noun, times=number(found.ratio, 3))], self._reach()
         if found.ratio < 1e-6:
             what = say("collapsed.curve" if len(names) == 2 else "collapsed.less")
             return [say("wrong.part_collapsed", noun=self.noun, what=what)], self._look_part(where)
@@ -343,6 +345,8 @@ class Explanation:
             key = "fact.coordinates_wrong" if len(wrong) > 1 else "fact.coordinate_wrong"
             text = say("wrong.different", noun=self.noun, amount=away)
             texts = [text, say(key, names=listing(wrong)), *self._steady(maps)[0]]
+            if self.exercise.judged_as is not None:  # no line of a net makes a coordinate of its surface
+                return texts, look or say("look.worst")
             return texts, look or say("look.coordinate", names=listing(wrong))
         if where.inside_only and len(names) > 1:
             return [say("wrong.different_inside", amount=away)], say("look.inside")
@@ -418,7 +422,7 @@ class Explanation:
                 *value_where(finding, data),
                 ("look", say("look.close")),
             ]
-        look = self._look_of_contrast() or say(_look_of_value(finding.tier, expected))
+        look = self._look_of_contrast() or say(_look_of_value(finding.tier, answer, expected))
         told = sense_text(self.wrong)
         sense: Parts = [("wrong", told)] if told else []
         return [*parts, *value_wrong(finding, answer, expected), *sense, *value_where(finding, data), ("look", look)]
@@ -440,11 +444,14 @@ class Explanation:
         return say("data.one", names=described(target))
 
 
-def _look_of_value(tier: Tier, expected: Answer | None) -> str:
+def _look_of_value(tier: Tier, answer: Answer, expected: Answer | None) -> str:
     """The look-text of a value that is not right."""
     if tier != "shape":
         return "look.value"
-    return "look.value_number" if isinstance(expected, Numbers) and expected.values.ndim == 0 else "look.value_shape"
+    if isinstance(expected, Numbers) and expected.values.ndim == 0:
+        return "look.value_number"
+    rows = all(isinstance(one, Numbers) and one.values.ndim == 1 for one in (answer, expected))
+    return "look.value_count" if rows else "look.value_shape"
 
 
 def _look_of(key: str, dimension: int) -> str | None:

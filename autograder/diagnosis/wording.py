@@ -54,7 +54,9 @@ def pair_written(f: Sampled, i: int) -> tuple[str, str]:
     """The learner's point and the right one, with so many digits that they differ."""
     size = float(np.abs(f.expected[i]).max(initial=0.0)) or f.target.size
     digits = messages.digits_for(float(f.deviations[i]), size)
-    return written(f.values[i], digits), written(f.expected[i], digits)
+    # A coordinate that is a rounding error beside the whole is written 0, where the point itself is the origin as well.
+    yours, expected = (np.where(np.abs(point) < 1e-12 * f.target.size, 0.0, point) for point in (f.values[i], f.expected[i]))
+    return written(yours, digits), written(expected, digits)
 
 
 def value_wrong(finding: Finding, answer: Answer, expected: Answer) -> Parts:

@@ -1,6 +1,7 @@
 """What the judge says of an answer.
 
 The tone: first what is right, then what is wrong, where, and one thing to look at; the geometry, never the solution.
+This file is a long one: a sentence a line, in the order in which they are met.
 """
 
 from __future__ import annotations
@@ -97,6 +98,7 @@ JUDGED: dict[str, str] = {
     "collapsed.curve": "a curve",
     "collapsed.less": "less",
     "wrong.more": "Your {noun} covers the right one and goes on beyond it: it is about {times} times as large.",
+    "wrong.more_hardly": "Your {noun} covers the right one and goes on beyond it, to places that hardly add to its size.",
     "wrong.moved.translation": "Right shape, other place: moved by {shift}.",
     "wrong.moved.rotation": "Right shape, other place: turned by {angle}° about the direction {axis}.",
     "wrong.moved.screw": "Right shape, other place: turned by {angle}° about the direction {axis} and moved.",
@@ -235,7 +237,7 @@ JUDGED: dict[str, str] = {
     "look.inside": "Look at the term that vanishes on the edges.",
     "look.corners": "Look at what happens between the corners: how do the points along an edge get their place?",
     "look.coordinate": "Look at the line that makes {names}.",
-    "look.edge": "You start right: look at what happens as {name} grows from {start} to {end}.",
+    "look.edge": "Look at what happens on the way from {name} = {start}, where you are right, to {name} = {end}.",
     "look.contrast": "Follow {names} through your function: which step holds in the first case only?",
     "look.only_sides": "Look at parameters of exactly {values}: which branch, or which span, do they belong to?",
     "look.spans": "Look at what is added up in that span: which points does it need, and does the sum or the loop reach them?",
@@ -253,6 +255,7 @@ JUDGED: dict[str, str] = {
         "It works for the numbers you see. Which numbers could come that you have not tried (signs, lengths, orders)?"
     ),
     "look.value_shape": "Print the shape of your answer for this data set: which axis is which in the statement?",
+    "look.value_count": "Print your answer for this data set: which entries are too many there, or missing?",
     "look.value_number": "The answer is a single number: is a sum, a mean or an index missing?",
     "look.value": "Work this data set out by hand and compare.",
     "look.empty": "A remark, no marks lost: empty arrays of parameters should give an empty array of shape {wanted}.",
@@ -376,6 +379,7 @@ JUDGED: dict[str, str] = {
     "look.shape.coordinates": "Count what goes into np.stack([x, y, z], axis=-1): one array for each coordinate.",
     "look.shape_curve": "Use NumPy operations on the whole array (np.cos, not math.cos), then np.stack([x, y, z], axis=-1).",
     "look.numbers_only": "It handles single numbers only: use NumPy functions (np.cos, not math.cos), which take whole arrays.",
+    "look.needs_axis": "Before it multiplies points, an array needs an axis for x, y, z: np.asarray({name}, float)[..., None].",
     # --- gates: finite, pointwise, repeatable
     "finite.corner": "It is not a finite number at the corner {place}.",
     "finite.edges": "It is not a finite number at {count} of {total} places, all of them on edges, such as {place}.",

@@ -166,6 +166,13 @@ def test_weights_that_hardly_change_the_speed_are_right_too(c):
     assert (verdict.outcome, verdict.fraction, verdict.tier) == ("passed", 1.0, "same set"), verdict.message
 
 
+def test_wrong_weights_are_not_sought_in_the_line_that_makes_x():
+    """cos(45), 45 taken for radians: x and y are wrong, and no line of the answer makes them."""
+    verdict = judge(A7["nurbs_quarter_cylinder"], lambda r, h: quarter(r, h, (1, np.cos(45), 1)))
+    assert "x and y are wrong" in verdict.message
+    assert "the line that makes" not in verdict.message
+
+
 @pytest.mark.parametrize(
     ("answer", "fraction", "tier"),
     [

@@ -1,5 +1,7 @@
 """What a learner reads, sentence by sentence, for one answer of each kind."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -76,7 +78,13 @@ class TestPlaces:
     def test_one_edge(self, arch):
         verdict = self.parts(arch, off_from_w0)
         assert verdict.part("right") == "The edge w = 0 is right."
-        assert "as w grows from 0 to 1" in verdict.part("look")
+        assert "on the way from w = 0, where you are right, to w = 1" in verdict.part("look")
+
+    def test_the_far_edge(self, arch):
+        """Nothing grows from 1 to 0, and who is right at the end did not start right."""
+        verdict = self.parts(arch, lambda u, w, a: off_from_w0(u, 1 - w, a))
+        assert verdict.part("right") == "The edge w = 1 is right."
+        assert "on the way from w = 1, where you are right, to w = 0" in verdict.part("look")
 
     def test_one_coordinate(self, arch):
         verdict = self.parts(arch, only_z)
@@ -119,6 +127,18 @@ class TestPlaces:
         assert "on the data set two (a = 2), at u = 1, w = 1" in where  # the first that shows it plainly
         assert "your point is (3, 3, 4), the right one is (3, 3, 2)" in where
 
+    def test_a_rounding_error_in_the_origin_is_written_0(self, arch):
+        """The right point at u = w = 0 is the origin, and nobody is asked to compare with 1e-17."""
+
+        def almost(u, w, a):
+            far = np.exp(-40 * (u**2 + w**2))
+            return stack(2 * far, 1e-17 + 0 * far, -1e-17 * far)
+
+        where = self.parts(arch, almost).part("where")
+        assert "at u = 0, w = 0: your point is (2, 0, 0), the right one is (0, 0, 0)." in where
+        small = self.parts(arch, lambda u, w, a: almost(u, w, a) * 1e-15 + bump(u, w, a))
+        assert "e-1" not in small.part("where")
+
     def test_digits_suffice_to_show_a_small_difference(self, arch):
         where = judge(arch, changed(arch, lambda u, w, a: stack(0 * u, 0 * u, 1e-7 * u * w))).part("where")
         assert "2.0000001" in where
@@ -154,7 +174,14 @@ class TestTiers:
         speed = judge(arch, lambda u, w, a: arch.reference(np.asarray(u) ** 2, w, a)).message
         assert "with the same corners, but u and w run at another speed" in speed
         assert "covers only a part" in judge(arch, lambda u, w, a: arch.reference(np.asarray(u) / 2, w, a)).message
-        assert "goes on beyond it" in judge(arch, lambda u, w, a: arch.reference(1.2 * np.asarray(u), w, a)).message
+        beyond = judge(arch, lambda u, w, a: arch.reference(1.2 * np.asarray(u), w, a)).message
+        assert "goes on beyond it: it is about 1.2" in beyond
+
+        def leap(u, w, a):
+            """Runs through all of it, and then stands still a little further on."""
+            return arch.reference(np.minimum(1.25 * np.asarray(u), 1.001), w, a)
+
+        assert "goes on beyond it, to places that hardly add to its size" in judge(arch, leap).message
         folded = judge(arch, lambda u, w, a: arch.reference(np.abs(2 * np.asarray(u) - 1), w, a)).message
         assert "covers it 2 times" in folded
         squeezed = judge(arch, lambda u, w, a: arch.reference(np.minimum(2 * np.asarray(u), 1), w, a)).message
@@ -174,3 +201,30 @@ def test_words_of_the_graders_own_making_stay_out(arch, seed):
     for answer in (lambda u, w, a: arch.reference(w, u, a), changed(arch, bump), lambda *a: None):
         message = judge(arch, answer, seed=seed).message
         assert not any(word in message for word in ("tier", "seed", "sampled", "gate", "finding"))
+
+
+def test_a_row_of_another_length_is_asked_for_its_entries():
+    """A row has one axis, and "which axis is which" is no question."""
+
+    @exercise(points=1, title="Row", kind="value")
+    def row(n):
+        """Return n ones."""
+        return np.ones(n)
+
+    row.data(lambda rng: {"n": 4})
+    assert judge(row, lambda n: np.ones(n + 1)).message.endswith("which entries are too many there, or missing?")
+    assert judge(row, lambda n: np.ones((n, 2))).message.endswith("which axis is which in the statement?")
+
+
+def test_an_axis_that_is_missing_is_not_taken_for_math_cos():
+    """A parameter times a point works for numbers; np.cos has nothing to do with it."""
+
+    @exercise(points=1, title="Line", kind="curve")
+    def line(u, p):
+        """Return u p."""
+        return np.asarray(u, float)[..., None] * p
+
+    line.data(lambda rng: {"p": np.array([3.0, 4.0, 5.0])})
+    message = judge(line, lambda u, p: u * p).message
+    assert message.endswith("an axis for x, y, z: np.asarray(u, float)[..., None].")
+    assert "np.cos, not math.cos" in judge(line, lambda u, p: math.cos(0 * u) * u * p).message
