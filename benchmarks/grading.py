@@ -5,12 +5,12 @@
 
 Three courses, made here by nbgrader's own release: ``exercises`` is A1, whose graded cells are ``check(...)``; ``alone`` has
 only A1's tasks and those cells, not the pictures and trials around them; ``ordinary`` has cells of asserts, hidden ones among
-them, as any nbgrader course. All submissions differ. Every figure is that of a whole process from its start to its end, with
-children; CPU is user and system time of the process and of all it started, peak memory the largest resident set of one process
-of it (of the trusted side: the grader's own processes, without the sandbox's).
+them, as any nbgrader course. ``A2`` to ``A9`` are the other assignments. All submissions differ. Every figure is that of a whole
+process from its start to its end, with children; CPU is user and system time of the process and of all it started, peak memory
+the largest resident set of one process of it (of the trusted side: the grader's own processes, without the sandbox's).
 
-nbgrader grades one submission after the other at a constant rate, so it is given fewer of them (``--peer``) and its start-up is
-taken off its time, in its favour; ours pays for its own. Under nbgrader ``check`` refuses to judge, since in the learner's own
+nbgrader grades one submission after the other at a constant rate, so it is given fewer of them (``--peer``; some twenty make the
+whole mixture of styles) and its start-up is taken off its time, in its favour; ours pays for its own. Under nbgrader ``check`` refuses to judge, since in the learner's own
 process every answer can be forged; here that refusal is lifted, so that nbgrader has to do what ours does: the public data are
 judged in its kernel, and give the same marks. The tables of both are compared.
 The bare sandbox runs the same cells in the same kind of process, as many at a time, and reads, judges, writes nothing.
@@ -68,28 +68,28 @@ class Figures:
 # ---- the courses
 
 
-def exercises(folder: Path, submissions: int, *, alone: bool = False) -> str:
-    """A1 with that many different well-behaved submissions: right, mistaken, partial, in many styles.
+def exercises(folder: Path, submissions: int, *, assignment: str = "A1", alone: bool = False) -> str:
+    """An assignment with that many different well-behaved submissions: right, mistaken, partial, in many styles.
 
     ``alone``: its set-up, task and exercise cells only, without the pictures and trials between them.
     """
-    (made,) = authoring.new_course(folder, ("A1",))
+    (made,) = authoring.new_course(folder, (assignment,))
     if alone:
-        source = folder / "source" / "A1" / f"{made.slug}.ipynb"
+        source = folder / "source" / assignment / f"{made.slug}.ipynb"
         whole = json.loads(source.read_text("utf-8"))
         code = [cell for cell in whole["cells"] if cell["cell_type"] == "code"]
         whole["cells"] = [code[0], *(cell for cell in code[1:] if "nbgrader" in cell["metadata"])]
         source.write_text(json.dumps(whole), "utf-8")
-    released = authoring.release(folder, "A1") / f"{made.slug}.ipynb"
-    wanted = [m for m in demo.cohort("A1") if m.kind in ("right", "mistake", "partial")]
+    released = authoring.release(folder, assignment) / f"{made.slug}.ipynb"
+    wanted = [m for m in demo.cohort(assignment) if m.kind in ("right", "mistake", "partial")]
     for number in range(submissions):
         member = wanted[number % len(wanted)]
         student = f"s{number:05d}"
-        demo.submit_one(member, released, Course(folder), "A1", student_id=student)
-        notebook = folder / "submitted" / student / "A1" / f"{made.slug}.ipynb"
+        demo.submit_one(member, released, Course(folder), assignment, student_id=student)
+        notebook = folder / "submitted" / student / assignment / f"{made.slug}.ipynb"
         text = notebook.read_text("utf-8")
         notebook.write_text(text.replace("import numpy as np", f"import numpy as np  # {number}", 1), "utf-8")
-    return "A1"
+    return assignment
 
 
 def ordinary(folder: Path, submissions: int) -> str:
@@ -148,6 +148,8 @@ def _cell(source: str, name: str, **flags: Any) -> dict[str, Any]:
 
 
 COURSES = {"exercises": exercises, "alone": functools.partial(exercises, alone=True), "ordinary": ordinary}
+USUAL = list(COURSES)
+COURSES |= {name: functools.partial(exercises, assignment=name) for name in (f"A{number}" for number in range(2, 10))}
 
 
 # ---- measuring
@@ -416,7 +418,7 @@ def main() -> None:
     parser.add_argument("--peer", type=int, default=8, help="for nbgrader, whose rate is constant")
     parser.add_argument("--rounds", type=int, default=1, help="the quickest of so many counts")
     parser.add_argument("--workers", type=int, nargs="+", default=[1, 2, 4])
-    parser.add_argument("--course", nargs="+", choices=COURSES, default=list(COURSES))
+    parser.add_argument("--course", nargs="+", choices=COURSES, default=USUAL)
     parser.add_argument("--growth", type=int, nargs="+", metavar="N", help="classes of these sizes, for example 100 1000 5000")
     parser.add_argument("--dask", nargs="+", choices=["tcp", "tls"], help="rows through Dask on this machine, by protocol")
     parser.add_argument("--otter", action="store_true", help="install otter-grader in a scratch environment and run it too")
