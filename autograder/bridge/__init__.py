@@ -13,6 +13,8 @@ import importlib.util
 from pathlib import Path
 from typing import Any
 
+from autograder.bridge import serving
+
 SANITIZE = (
     "autograder.bridge.preprocessors.Rebuild",  # for ClearOutput, DeduplicateIds, OverwriteKernelspec and OverwriteCells
     "nbgrader.preprocessors.CheckCellMetadata",
@@ -51,6 +53,7 @@ def configure(c: Any) -> None:
     c.HTMLExporter.preprocessors = ["autograder.bridge.pages.Harmless"]
     c.HTMLExporter.filters = {"markdown2html": "autograder.bridge.pages.markdown2html"}
     c.HTMLExporter.extra_template_basedirs = [str(TEMPLATES), *_nbgrader_templates()]
+    serving.guard()
 
 
 def _nbgrader_templates() -> list[str]:

@@ -16,6 +16,16 @@ SCRIPTS = """<script>window.stolen = 1</script><img src=x onerror="window.stolen
 <a href="javascript:window.stolen=1">look</a>
 $\\href{javascript:window.stolen=1}{x}$ <iframe srcdoc="<script>parent.stolen = 1</script>"></iframe>"""
 
+# What a click on a learner's link may lead to, and what must not come of it.
+PAGE = "<script>document.title = 'stolen'; fetch('/api/contents').then(() => { document.title = 'stolen' })</script>my page"
+LINKS = {
+    "my page": "figure.html",
+    "my picture": "figure.svg",
+    "the list": "/formgrader/manage_students/%22%2B(document.title='stolen')%2B%22",
+    "the class": "/formgrader/gradebook/%3C%2Fscript%3E%3Cscript%3Edocument.title='stolen'%3C%2Fscript%3E",
+    "my course": "../../?path=submitted/s99-scripts/A1",
+}
+
 
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
@@ -33,11 +43,14 @@ def course(tmp_path_factory):
     for cell in notebook.cells:
         graded = cell.metadata.get("nbgrader", {})
         if cell.cell_type == "markdown" and graded.get("solution"):
-            cell.source = SCRIPTS
+            cell.source = SCRIPTS + "".join(f"\n\n[{words}](<{place}>)" for words, place in LINKS.items())
         if cell.cell_type == "code" and graded.get("grade_id") == "cylinder":
             cell.source += f"\nfrom IPython.display import HTML, Javascript, display\ndisplay(HTML({SCRIPTS!r}))"
             cell.source += "\ndisplay(Javascript('window.stolen = 1'))"
     nbformat.write(notebook, path)
+    (path.parent / "figure.html").write_text(PAGE)
+    (path.parent / "figure.svg").write_text(f"<svg xmlns='http://www.w3.org/2000/svg'>{PAGE}</svg>")
+    (path.parent / "nbgrader_config.py").write_text(f"open({str(folder / 'stolen')!r}, 'w').close()")
     report = grade(course, "A1")
     assert not report.failures
     feedback.write(course, "A1")
@@ -68,13 +81,22 @@ def test_formgrader_shows_the_class_and_a_submission_with_its_card_and_figure(co
 
 
 def test_a_stored_script_runs_neither_in_formgrader_nor_in_feedback(course, offline_page, tmp_path):
-    """Text, outputs, attributes, links and formulas of a learner: none of them runs in another person's browser."""
+    """Text, outputs, attributes, formulas, and where links lead: none of them runs in another person's browser."""
     page = offline_page
     with jupyterlab(course, tmp_path) as address:
         page.goto(submission_address(page, address, "s99-scripts"))
         page.get_by_text("Cylinder from its known form").first.wait_for(timeout=60_000)
         page.wait_for_timeout(2000)
         assert page.evaluate("() => window.stolen === undefined")
+        submission = page.url
+        for words in LINKS:
+            page.goto(submission)
+            page.get_by_role("link", name=words, exact=True).click()
+            page.wait_for_url(lambda url: url != submission)
+            page.wait_for_timeout(300)
+            assert "stolen" not in page.title(), words
+        assert "is a course" in page.inner_text("body")  # the last link is refused, with the reason
+        assert not (course / "stolen").exists()
     page.goto((course / "feedback" / "s99-scripts" / "A1" / "known-forms.html").as_uri())
     page.wait_for_timeout(2000)
     assert page.evaluate("() => window.stolen === undefined")
