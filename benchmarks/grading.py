@@ -5,14 +5,15 @@
 
 Three courses, made here by nbgrader's own release: ``exercises`` is A1, whose graded cells are ``check(...)``; ``alone`` has
 only A1's tasks and those cells, not the pictures and trials around them; ``ordinary`` has cells of asserts, hidden ones among
-them, as any nbgrader course. ``A2`` to ``A9`` are the other assignments. All submissions differ. Every figure is that of a whole
-process from its start to its end, with children; CPU is user and system time of the process and of all it started, peak memory
-the largest resident set of one process of it (of the trusted side: the grader's own processes, without the sandbox's).
+them, as any nbgrader course. ``A2`` to ``A9`` are the other assignments. All submissions differ. Every figure is that of a
+whole process from its start to its end, with children; CPU is user and system time of the process and of all it started, peak
+memory the largest resident set of one process of it (of the trusted side: the grader's own processes, without the sandbox's).
 
-nbgrader grades one submission after the other at a constant rate, so it is given fewer of them (``--peer``; some twenty make the
-whole mixture of styles) and its start-up is taken off its time, in its favour; ours pays for its own. Under nbgrader ``check`` refuses to judge, since in the learner's own
-process every answer can be forged; here that refusal is lifted, so that nbgrader has to do what ours does: the public data are
-judged in its kernel, and give the same marks. The tables of both are compared.
+nbgrader grades one submission after the other at a constant rate, so it is given fewer of them (``--peer``; some twenty are
+the whole mixture of styles), and its start-up is taken off its time, in its favour; ours pays for its own. Under nbgrader
+``check`` refuses to judge, since in the learner's own process every answer can be forged; here that refusal is lifted, so that
+nbgrader has to do what ours does: the public data are judged in its kernel, and give the same marks. The tables of both are
+compared.
 The bare sandbox runs the same cells in the same kind of process, as many at a time, and reads, judges, writes nothing.
 Times depend on the machine and on who else uses it; the ratios are what is meant to be read.
 More than 400 lines, for a row is to be read beside the ones that it is compared with, all made in the same way.
