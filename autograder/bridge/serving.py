@@ -1,9 +1,9 @@
 """Formgrader's pages while a server shows them: three things that nbgrader 0.9 leaves to whoever writes a link.
 
 What learners hand in may hold links, and a link in a page of formgrader is followed with the instructor's rights: it may lead
-to a file beside the notebook, to any address of formgrader, or back to the course list with a folder. nbgrader shows such a file
-as a page of its own server, writes the address into a page as it stands, and runs the folder's ``nbgrader_config.py``. So a
-click would be enough to read the gradebook, or to run a program as the instructor.
+to a file beside the notebook, to any address of formgrader, or back to the course list with a folder. nbgrader shows such a
+file as a page of its own server, writes the address into a page as it stands, and runs the folder's ``nbgrader_config.py``. So
+a click would be enough to read the gradebook, or to run a program as the instructor.
 
 nbgrader has no setting for any of them, so its classes are changed where they are loaded: in the server, and nowhere else.
 """
