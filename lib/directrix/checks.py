@@ -26,6 +26,12 @@ HIGHEST = 64  # order of a derivative: beyond it binomials and powers are no num
 
 def real(name: str, value: Any) -> Array:
     """A float64 array of real numbers, NaN and infinity among them, of any shape."""
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise ShapeError(
+            f"{name} must be real numbers; got an array of which {int(np.sum(value.mask))} are masked. "
+            "Leave those out, or give them a value with .filled().",
+            name=name,
+        )
     try:
         given = np.asarray(value)
         if given.dtype.kind not in "biuf":

@@ -17,6 +17,8 @@ REFUSED = [
     (lambda: checks.array("a", None), ShapeError, "a must be real numbers; got None"),
     (lambda: checks.array("a", 1 + 2j), ShapeError, "a must be real numbers"),
     (lambda: checks.array("a", [[1, 2], [3]]), ShapeError, "rows of unequal length"),
+    (lambda: checks.array("a", np.ma.masked_greater([1.0, 99.0], 9)), ShapeError, "got an array of which 1 are masked"),
+    (lambda: checks.parameter("u", np.ma.masked), ShapeError, r"Leave those out, or give them a value with \.filled\(\)"),
     (lambda: checks.number("a", [1, 2]), ShapeError, r"a must be one number; got an array of shape \(2,\)"),
     (lambda: checks.positive("radius", 0), NumberError, "radius must be greater than 0; got 0"),
     (lambda: checks.not_negative("r1", -1e-9), NumberError, "r1 must be at least 0; got -1e-09"),
@@ -57,6 +59,7 @@ REFUSED = [
 ]  # fmt: skip
 
 ACCEPTED = [
+    (lambda: checks.array("a", np.ma.masked_greater([1.0, 2.0], 9)), [1, 2]),
     (lambda: checks.array("a", [1, 2]), [1, 2]),
     (lambda: checks.array("a", np.array([1, 2], dtype=object)), [1, 2]),
     (lambda: checks.number("a", np.float32(0.5)), 0.5),

@@ -23,6 +23,7 @@ from directrix.inspection.fitting import (
     fit_sphere,
     fit_torus,
     minimum_zone,
+    narrowest_plane,
 )
 from directrix.inspection.forms import Form, IdealCone, IdealCylinder, IdealPlane, IdealSphere, IdealTorus, about
 from directrix.inspection.shown import covering
@@ -268,5 +269,5 @@ def _fitted(points: ArrayLike, least: int, fit: Fitter, method: str, extra: tupl
         raise GeometryError("the measured points are all the same: no form fits them best.")
     form = fit(v)
     if method == "minimum zone":
-        form = minimum_zone(form, v)
+        form = narrowest_plane(form, v) if isinstance(form, IdealPlane) else minimum_zone(form, v)
     return FormError(form.shifted(mean), X, method)

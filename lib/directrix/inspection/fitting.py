@@ -2,7 +2,8 @@
 
 Both fits take steps in the form's own frame (`forms.Form`). Least squares is Gauss-Newton with Marquardt's damping on
 orthogonal distances. The minimum zone min (max d - min d) is a sequence of linear programs, each the same problem with d
-replaced by its tangent within a trust region; it ends in a local minimum, from the least-squares form the nearest one.
+replaced by its tangent within a trust region; it ends in a local minimum, from the least-squares form the nearest one. A plane
+sets out from other directions too, where the points are thick enough for a narrower zone there.
 Source: G. T. Anthony et al., Reference software for finding Chebyshev best-fit geometric elements, Precision Engineering 19
 (1996) 28-36; A. B. Forbes, Least-squares best-fit geometric elements, NPL report DITC 140/89 (1989).
 """
@@ -21,6 +22,7 @@ from directrix.inspection.forms import Form, IdealCone, IdealCylinder, IdealPlan
 DIRECTIONS = 240  # axis directions tried over the half sphere, about 9 degrees apart
 SAMPLE = 240  # points used to rank them
 REFINED = 10  # best starts that are refined
+NEAR = 0.1  # rad: no direction is farther from all that are tried
 FLAT = 1e6  # a radius this many times the size of the points means that they do not bend
 
 
@@ -74,6 +76,22 @@ def minimum_zone(form: Form, points: Array, *, rounds: int = 100) -> Form:
     middle = np.zeros(form.steps)
     middle[-1] = (d.max() + d.min()) / 2
     return form.stepped(middle)
+
+
+def narrowest_plane(plane: IdealPlane, points: Array) -> Form:
+    """The plane of least zone, from the least-squares plane and from every tried direction that may lead to a narrower one.
+
+    Over points of extent e a turn by NEAR changes a width by at most e NEAR: for a plate no start but the first is left.
+    """
+    axes = half_sphere()
+    widths = np.ptp(points @ axes.T, axis=0)
+    enough = float(np.ptp(plane.distance(points))) + NEAR * float(np.linalg.norm(np.ptp(points, axis=0)))
+    starts = [plane.normal]
+    for i in np.argsort(widths):
+        if widths[i] <= enough and np.abs(starts @ axes[i]).max() < np.cos(2 * NEAR) and len(starts) <= REFINED:
+            starts.append(axes[i])
+    zones = [minimum_zone(IdealPlane(plane.point, normal), points) for normal in starts]
+    return min(zones, key=lambda zone: float(np.ptp(zone.distance(points))))
 
 
 def _zone_step(d: Array, J: Array, reach: float, size: float) -> tuple[Array, float]:

@@ -135,6 +135,15 @@ def test_minimum_zone_flatness_is_the_width_of_the_hull():
         np.testing.assert_allclose(dx.flatness(points, "minimum zone").value, width_of_hull(points), rtol=1e-9)
 
 
+@pytest.mark.parametrize("thickness", [1.0, 0.3, 0.1])
+def test_the_narrowest_zone_of_thick_clouds_is_found_too(thickness):
+    """Few points far from flat have several zones that no small turn makes narrower; the least-squares plane leads to any."""
+    rng = np.random.default_rng(77)
+    for _ in range(8):
+        points = rng.normal(size=(12, 3)) * [1, 0.6, thickness] @ rotation(rng).T
+        np.testing.assert_allclose(dx.flatness(points, "minimum zone").value, width_of_hull(points), rtol=1e-9)
+
+
 def test_minimum_zone_sphericity_of_a_constructed_zone():
     """Points on two concentric spheres, interlocked so that no other centre gives a narrower zone."""
     tetrahedron = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]) / np.sqrt(3)
