@@ -31,8 +31,13 @@ def moved_set(yours: Measured, right: Measured, size: float) -> Motion | None:
         for trimmed in (False, True):
             refined = _refined(motion, yours, right, size, trimmed=trimmed)
             if refined is not None and _holds(refined, yours, right, size):
-                return refined
+                return refined if _moves(refined, right, size) else None
     return None
+
+
+def _moves(motion: Motion, right: Measured, size: float) -> bool:
+    """Whether it takes the set to another place: within what counts as the same, it is the same place, met less well."""
+    return bool(np.linalg.norm(motion(right.points) - right.points, axis=-1).max() > 100 * SAME * size)
 
 
 def _moments(of: Measured) -> tuple[Array, Array, Array]:

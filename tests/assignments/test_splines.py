@@ -180,13 +180,25 @@ def test_wrong_weights_are_not_sought_in_the_line_that_makes_x():
         (lambda r, h: quarter(r, h, (1, 0.7071, 1)), 0.8, "close"),
         (lambda r, h: quarter(r, h, (1, 0.707107, 1)), 0.8, "close"),
         (lambda r, h: quarter(r, h, (1, 2 * 0.707107, 4)), 0.8, "close"),
+        (lambda r, h: quarter(r, h, (1, 2 * 0.7071, 4)), 0.0, "different"),  # and not moved, by a millionth
         (lambda r, h: quarter(r, h, (1, 0.9, 1)), 0.0, "different"),
         (lambda r, h: quarter(r, h)[0], 0.0, "shape"),
         (lambda r, h: quarter(r, h)[::-1], 0.0, "shape"),
         (lambda r, h: (quarter(r, h)[0].swapaxes(0, 1), quarter(r, h)[1].T), 0.0, "shape"),
         (lambda r, h: quarter(r, h, (1, -ROOT, 1)), 0.0, "shape"),
     ],
-    ids=["turned", "rounded", "less", "at-another-speed", "another", "net-only", "weights-first", "w-first", "negative"],
+    ids=[
+        "turned",
+        "rounded",
+        "less",
+        "at-another-speed",
+        "more",
+        "another",
+        "net-only",
+        "weights-first",
+        "w-first",
+        "negative",
+    ],
 )
 def test_answers_that_are_not_the_quarter(answer, fraction, tier):
     verdict = judge(A7["nurbs_quarter_cylinder"], answer, seed=b"hidden")
