@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from autograder.gradebook.export import Cell, Sheet
 
+MOST_NAMED = 20
 WIDEST = 30  # letters of an id or a name that columns keep on a narrow screen
 
 
@@ -85,7 +86,8 @@ def marks(
     """
     from autograder.gradebook import export
 
-    with opened(course).gradebook() as book:
+    found = opened(course)
+    with found.gradebook() as book:
         sheet = export.sheet(book, assignment)
     console = console_for(as_json)
     for made in _tables(sheet):
@@ -94,6 +96,7 @@ def marks(
         _nobody(sheet, console)
     if csv is not None:
         _write(sheet, csv, console)
+    _left_out(sheet, found.students("submitted", assignment), console)
     if as_json:
         _print_rows(sheet)
 
@@ -114,9 +117,11 @@ def export(
     """
     from autograder.gradebook import export as exporting
 
-    with opened(course).gradebook() as book:
+    found, console = opened(course), console_for(as_json)
+    with found.gradebook() as book:
         sheet = exporting.sheet(book, assignment)
-    _write(sheet, csv if csv is not None else Path(f"marks-{assignment}.csv"), console_for(as_json))
+    _write(sheet, csv if csv is not None else Path(f"marks-{assignment}.csv"), console)
+    _left_out(sheet, found.students("submitted", assignment), console)
     if as_json:
         _print_rows(sheet)
 
@@ -137,6 +142,17 @@ def _write(sheet: Sheet, path: Path, console: Console) -> None:
 def _nobody(sheet: Sheet, console: Console) -> None:
     said = f"Nobody has marks of {sheet.assignment} yet; grade it first: directrix grade {sheet.assignment}"
     console.print(said, highlight=False, markup=False)
+
+
+def _left_out(sheet: Sheet, submitted: Sequence[str], console: Console) -> None:
+    """Name who has a folder in submitted/ and no row, since whoever takes the rows for the class would forget them."""
+    from autograder.report import plain
+
+    marked = {row.student for row in sheet.rows}
+    if sheet.rows and (others := [plain(student) for student in submitted if student not in marked]):
+        named = ", ".join(others[:MOST_NAMED]) + (f" and {len(others) - MOST_NAMED} more" if len(others) > MOST_NAMED else "")
+        said = f"Not among them, without any marks yet: {named}. What became of each: directrix grade {sheet.assignment}"
+        console.print(said, highlight=False, markup=False)
 
 
 def _tables(sheet: Sheet) -> Iterator[Table]:

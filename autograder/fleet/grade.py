@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 BATCH = 50
 BATCH_SECONDS = 2.0
+OTHER_DATE = "the due date or an extension has changed since this was graded; --force takes the late penalty anew"
 Progress = Callable[[int, int, str], None]
 
 
@@ -363,12 +364,16 @@ class _Run:
         found, order = Spool(self.course.room), sorted(self.done)
         for start in range(0, len(order), BATCH):
             reports = [self.reports[self.done[student]] for student in order[start : start + BATCH]]
-            for report in standing.current(self.book, self.row, reports):
-                found.add(report)
+            for then, now in zip(reports, standing.current(self.book, self.row, reports), strict=True):
+                found.add(dataclasses.replace(now, notes=(*now.notes, OTHER_DATE)) if self._other_date(then, now) else now)
         titles = {exercise.id: exercise.title for exercise in self._posed().values()}
         course = self.course.id or self.course.folder.name
         available = standing.available(self.row)
         return GradeReport(course, self.row.name, self.level, found, seconds, available, titles, self.shared)
+
+    def _other_date(self, then: StudentReport, now: StudentReport) -> bool:
+        """Whether a penalty hangs on a date that is another since the submission was graded."""
+        return self.penalty is not None and bool(then.cells) and then.seconds_late != now.seconds_late
 
 
 def _timestamp(place: Path) -> datetime.datetime | None:

@@ -85,6 +85,20 @@ def test_late_submissions_lose_what_nbgraders_policy_takes(ordinary):
     assert graded.student("late").penalty == 0.0
 
 
+def test_a_due_date_that_is_set_after_grading_is_told_where_it_would_cost_points(ordinary):
+    """As under nbgrader what is graded keeps its penalty until it is graded again; ours says so, and whose."""
+    ordinary.hand_in("late", {"one": RIGHT, "two": ADD}, timestamp="2027-02-01 13:00:00.000000 UTC")
+    ordinary.hand_in("good", {"one": RIGHT, "two": ADD}, timestamp="2027-02-01 11:00:00.000000 UTC")
+    assert fleet.grade(ordinary.course(), "ps1").student("late").notes == ()
+    ordinary.sql("update assignment set duedate = '2027-02-01 12:00:00.000000'")
+    graded = fleet.grade(ordinary.course(), "ps1")
+    assert [student.status for student in graded.students] == ["unchanged", "unchanged"]
+    assert (graded.student("late").penalty, graded.student("good").notes) == (0.0, ())
+    assert "the due date or an extension has changed" in graded.student("late").notes[0]
+    graded = fleet.grade(ordinary.course(), "ps1", force=True)
+    assert (graded.student("late").penalty, graded.student("late").notes) == (6.0, ())
+
+
 def test_a_date_that_cannot_be_read_is_named_and_not_forgiven(ordinary):
     ordinary.hand_in("ada", {"one": RIGHT, "two": ADD}, timestamp="yesterday, I think")
     graded = fleet.grade(ordinary.course(), "ps1")

@@ -118,6 +118,21 @@ def test_how_many_are_in_the_file_is_said_in_words(ordinary, capsys, tmp_path, c
     assert len(path.read_text().splitlines()) == 1 + count
 
 
+@pytest.mark.parametrize("verb", [reading.marks, reading.export])
+def test_who_handed_in_and_has_no_row_is_named(ordinary, capsys, tmp_path, verb):
+    """An empty folder has no row in nbgrader's tables: who takes the rows for the class would forget the student."""
+    with ordinary.course().gradebook() as book:
+        book.write(book.assignment("ps1"), [Record("ada", None, {})])
+    for student in ("ada", "kim"):
+        (ordinary.folder / "submitted" / student / "ps1").mkdir(parents=True)
+    verb("ps1", ordinary.folder, csv=tmp_path / "marks.csv", as_json=False)
+    said = capsys.readouterr().out.splitlines()
+    assert said[-1] == "Not among them, without any marks yet: kim. What became of each: directrix grade ps1"
+    (ordinary.folder / "submitted" / "kim" / "ps1").rmdir()
+    verb("ps1", ordinary.folder, csv=tmp_path / "marks.csv", as_json=False)
+    assert "kim" not in capsys.readouterr().out
+
+
 def test_feedback_reads_fifty_at_a_time_and_a_single_page_one_student(large, asked):
     released = (large.folder / "release/ps1/two.ipynb").read_bytes()
     for student in STUDENTS[:70]:
