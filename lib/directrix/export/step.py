@@ -21,6 +21,10 @@ from directrix.solids.solid import Solid
 from directrix.surfaces.spline import NurbsPatch
 from directrix.surfaces.surface import Surface
 
+LEAST = 1e-5  # mm: OpenCASCADE takes points within 1e-7 mm for one, and leaves out faces without a word
+SHORTEST = 1e-6  # domain of knots that is written as it is; from a shorter one faces are lost as well
+FARTHEST = 1e8  # lengths of the domain at which it may begin
+
 MISSING = "STEP files need OpenCASCADE: pip install 'directrix[cad]'"
 
 
@@ -34,6 +38,7 @@ def write_step(path: Path, forms: tuple[Any, ...]) -> None:
         builder, compound = occ.BRep.BRep_Builder(), occ.TopoDS.TopoDS_Compound()
         builder.MakeCompound(compound)
         for patch in patches:
+            _check_size(patch)
             made = occ.BRepBuilderAPI.BRepBuilderAPI_MakeFace(_geom(occ, patch), 1e-6)
             if not made.IsDone():
                 raise GeometryError(f"OpenCASCADE made no face of {patch!r}: {made.Error()}.")
@@ -59,6 +64,15 @@ def read_step(path: Path) -> list[NurbsPatch]:
             found.append(_patch(occ, _face(occ, explorer.Current())))
             explorer.Next()
         return found
+
+
+def _check_size(patch: NurbsPatch) -> None:
+    size = float(np.ptp(patch.control_net.reshape(-1, 3), axis=0).max())
+    if size < LEAST:
+        raise GeometryError(
+            f"STEP holds lengths in millimetres, and a surface of {LEAST:g} mm at least; got one of {size:.3g}. "
+            "Scale it up: Transform.scale(...) @ surface."
+        )
 
 
 class _Modules:
@@ -98,16 +112,26 @@ def _geom(occ: Any, patch: NurbsPatch) -> Any:
             poles.SetValue(i + 1, j + 1, occ.gp.gp_Pnt(*map(float, patch.control_net[i, j])))
             weights.SetValue(i + 1, j + 1, float(patch.weights[i, j]))
     (knots_u, times_u), (knots_w, times_w) = (_knots(arrays, knots) for knots in (patch.knots_u, patch.knots_w))
-    return occ.Geom.Geom_BSplineSurface(poles, weights, knots_u, knots_w, times_u, times_w, *patch.degrees)
+    try:
+        return occ.Geom.Geom_BSplineSurface(poles, weights, knots_u, knots_w, times_u, times_w, *patch.degrees)
+    except Exception as failure:  # OpenCASCADE's exceptions have nothing in common
+        raise GeometryError(f"OpenCASCADE takes no such surface: {failure}. Knots may lie too near to each other.") from None
 
 
 def _knots(arrays: dict[str, Any], knots: Array) -> tuple[Any, Any]:
-    distinct, counts = np.unique(knots, return_counts=True)
+    distinct, counts = np.unique(_spread(knots), return_counts=True)
     values, times = arrays["numbers"](1, len(distinct)), arrays["counts"](1, len(distinct))
     for i, (knot, count) in enumerate(zip(distinct, counts, strict=True), start=1):
         values.SetValue(i, float(knot))
         times.SetValue(i, int(count))
     return values, times
+
+
+def _spread(knots: Array) -> Array:
+    """Knots whose ends are repeated; from 0 to 1 where they lie too near to each other: the surface over u is the same."""
+    start, end = knots[0], knots[-1]
+    plain = end - start >= SHORTEST and max(abs(start), abs(end)) <= FARTHEST * (end - start)
+    return knots if plain else (knots - start) / (end - start)
 
 
 def _arrays(occ: Any) -> dict[str, Any]:

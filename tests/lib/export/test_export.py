@@ -193,6 +193,26 @@ def test_step_there_and_back(form, tmp_path):
     assert back.degrees == written.degrees
 
 
+@pytest.mark.parametrize(("length", "start"), [(1e-9, 0.0), (1e-12, 0.0), (1e-5, 1e7)])
+def test_step_of_knots_on_a_short_domain(length, start, tmp_path):
+    """OpenCASCADE takes parameters within 1e-9 for one and would write no face, or another, without a word."""
+    knots = start + length * np.array([0, 0, 0, 0.25, 1, 1, 1])
+    form = dx.BSplinePatch(NET, 3, 5, knots)
+    (back,) = export.read(export.write(tmp_path / "form.step", form))
+    assert np.allclose(back(U, W), form(U, W), atol=1e-5)
+
+
+def test_step_says_what_it_cannot_hold(tmp_path):
+    """A face smaller than OpenCASCADE's resolution was left out of the file; knots an ulp apart ended in its own exception."""
+    (back,) = export.read(export.write(tmp_path / "small.step", dx.BezierPatch(1e-5 * NET)))
+    assert np.allclose(back.control_net, 1e-5 * NET, rtol=0, atol=1e-15)
+    with pytest.raises(GeometryError, match=r"a surface of 1e-05 mm at least; got one of .*Scale it up"):
+        export.write(tmp_path / "tiny.step", dx.BezierPatch(1e-7 * NET))
+    near = dx.BSplinePatch(NET, 2, 5, [0, 0, 0.5, np.nextafter(0.5, 1), 1, 1])
+    with pytest.raises(GeometryError, match=r"OpenCASCADE takes no such surface.*too near"):
+        export.write(tmp_path / "near.step", near)
+
+
 def test_step_of_a_torn_patch_and_a_solid(tmp_path):
     """A tear becomes two faces, a solid six."""
     pytest.importorskip("OCP", reason="OpenCASCADE is not installed: uv sync --group oracles")
