@@ -193,7 +193,7 @@ def test_step_there_and_back(form, tmp_path):
     assert back.degrees == written.degrees
 
 
-@pytest.mark.parametrize(("length", "start"), [(1e-9, 0.0), (1e-12, 0.0), (1e-5, 1e7)])
+@pytest.mark.parametrize(("length", "start"), [(1e-9, 0.0), (1e-12, 0.0), (1e-3, 1e6)])
 def test_step_of_knots_on_a_short_domain(length, start, tmp_path):
     """OpenCASCADE takes parameters within 1e-9 for one and would write no face, or another, without a word."""
     knots = start + length * np.array([0, 0, 0, 0.25, 1, 1, 1])
