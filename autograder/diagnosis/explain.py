@@ -13,7 +13,7 @@ import numpy as np
 
 from autograder import messages
 from autograder.comparison import values as value_rungs
-from autograder.comparison.answers import Answer, Numbers, Raised
+from autograder.comparison.answers import Answer, Numbers, Raised, Several
 from autograder.comparison.gates import Gate, Trouble, error_gate
 from autograder.comparison.maps import CLOSE, Sampled, Shifted
 from autograder.comparison.sets import SAME, SetFinding
@@ -446,10 +446,12 @@ class Explanation:
 
 def _look_of_value(tier: Tier, answer: Answer, expected: Answer | None) -> str:
     """The look-text of a value that is not right."""
+    if isinstance(expected, Several) and value_rungs.as_items(answer, len(expected.items)) is None:
+        return "look.value_parts"
     if tier != "shape":
         return "look.value"
     if isinstance(expected, Numbers) and expected.values.ndim == 0:
-        return "look.value_number"
+        return "look.value_truth" if expected.was == "bool" else "look.value_number"
     rows = all(isinstance(one, Numbers) and one.values.ndim == 1 for one in (answer, expected))
     return "look.value_count" if rows else "look.value_shape"
 

@@ -75,9 +75,10 @@ def value_wrong(finding: Finding, answer: Answer, expected: Answer) -> Parts:
         return parts
     if isinstance(expected, Word):
         return [("wrong", word_text(answer, expected, finding))]
+    truth = isinstance(expected, Numbers) and expected.was == "bool" and expected.values.ndim == 0
     if isinstance(answer, Word):
-        return [("wrong", say("wrong.not_number", yours=answer.text[:40]))]
-    if isinstance(expected, Numbers) and expected.was == "bool" and expected.values.ndim == 0 and isinstance(answer, Numbers):
+        return [("wrong", say("wrong.not_truth" if truth else "wrong.not_number", yours=answer.text[:40]))]
+    if truth and isinstance(answer, Numbers) and answer.values.ndim == 0:
         facts = {"yours": spoken_answer(answer, "bool"), "expected": spoken_answer(expected)}
         return [("wrong", say("wrong.yes_no", **facts))]
     if finding.pattern is not None:

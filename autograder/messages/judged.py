@@ -115,6 +115,7 @@ JUDGED: dict[str, str] = {
     "wrong.word_case": "“{yours}” is right but for capitals or spaces; write it exactly as the statement does.",
     "wrong.not_word": "The answer is a word (a str); your function returned {yours}.",
     "wrong.not_number": "The answer is a number; your function returned the word “{yours}”.",
+    "wrong.not_truth": "The answer is True or False; your function returned the word “{yours}”.",
     "wrong.yes_no": "Your function says {yours} where the answer is {expected}.",
     "wrong.mask": "It says {yours} where the answer is {expected}, at {count} of {total} places.",
     "wrong.tuple": "The answer is a tuple of {expected}; your function returned {yours}.",
@@ -255,6 +256,8 @@ JUDGED: dict[str, str] = {
         "It works for the numbers you see. Which numbers could come that you have not tried (signs, lengths, orders)?"
     ),
     "look.value_shape": "Print the shape of your answer for this data set: which axis is which in the statement?",
+    "look.value_truth": "The answer is a single True or False: is an index missing, or all() or any()?",
+    "look.value_parts": "Return all of them in one line, in the order of the statement, with commas between.",
     "look.value_count": "Print your answer for this data set: which entries are too many there, or missing?",
     "look.value_number": "The answer is a single number: is a sum, a mean or an index missing?",
     "look.value": "Work this data set out by hand and compare.",

@@ -125,7 +125,7 @@ def to_bezier(form: Form) -> Form:
     """The Bezier form of a polynomial form of one piece.
 
     From Hermite data: end points stay, inner points are p ± p'/3 and, with a twist, p ± pu/3 ± pw/3 ± puw/9 (Mortenson,
-    Geometric Modeling, 3rd ed., section 8.6). From powers: P_j = Σ C(j, i)/C(n, i) a_i. From points: the system
+    Geometric Modeling, 3rd ed., chapter 8). From powers: P_j = Σ C(j, i)/C(n, i) a_i. From points: the system
     Σ B_j(t_i) P_j = Q_i is solved.
 
     Parameters
@@ -164,7 +164,7 @@ def to_hermite(form: Form) -> Form:
     """The Hermite form of a polynomial form of one piece, of degree at most 3 in each parameter.
 
     Tangents are 3 (P1 - P0), twists 9 (P00 - P01 - P10 + P11) with the signs of the corner; lower degrees are raised first
-    (Mortenson, Geometric Modeling, 3rd ed., section 8.6).
+    (Mortenson, Geometric Modeling, 3rd ed., chapter 8).
 
     Parameters
     ----------
@@ -199,8 +199,8 @@ def to_hermite(form: Form) -> Form:
 def to_algebraic(form: Form) -> AlgebraicPatch:
     """The algebraic form of a polynomial patch of one piece: coefficients of ascending powers.
 
-    From Hermite data A = M_F G M_Fᵀ, whose rows and columns descend, reversed (Mortenson, Geometric Modeling, 3rd ed., section
-    8.2); from Bezier points a_i = Σ (-1)^(i-j) C(n, i) C(i, j) P_j.
+    From Hermite data A = M_F G M_Fᵀ, whose rows and columns descend, reversed (Mortenson, Geometric Modeling, 3rd ed., chapter
+    7); from Bezier points a_i = Σ (-1)^(i-j) C(n, i) C(i, j) P_j.
 
     Parameters
     ----------
@@ -234,7 +234,7 @@ def to_algebraic(form: Form) -> AlgebraicPatch:
 def to_points(form: Form, tu: ArrayLike | None = None, tw: ArrayLike | None = None) -> PointCurve | PointPatch:
     """The point form of a polynomial form of one piece: as many points on it as its degrees ask, at chosen parameters.
 
-    A bicubic gives the sixteen-point form (Mortenson, Geometric Modeling, 3rd ed., section 8.4).
+    A bicubic gives the sixteen-point form (Mortenson, Geometric Modeling).
 
     Parameters
     ----------

@@ -86,8 +86,8 @@ def _snapped(knots: Array, places: Array) -> Array:
 def times(a: Strand, b: Strand) -> Strand:
     """The product of two splines, coordinate by coordinate (d = 1 goes with any d), on their Bezier pieces.
 
-    c_k = Σ_(i+j=k) C(p, i) C(q, j) / C(p + q, k) a_i b_j (Farin, Curves and Surfaces for CAGD, 5th ed., section 5.9). Where the
-    product is continuous its inner knots have multiplicity p + q, more than they may need.
+    c_k = Σ_(i+j=k) C(p, i) C(q, j) / C(p + q, k) a_i b_j (Farin, Curves and Surfaces for CAGD, "Formulas for Bernstein
+    Polynomials"). Where the product is continuous its inner knots have multiplicity p + q, more than they may need.
 
     Examples
     --------

@@ -3,7 +3,7 @@
     F(x, y, z) = A x² + B y² + C z² + D xy + E yz + F zx + G x + H y + J z + K = hᵀ Q h,    h = (x, y, z, 1)
 
 The off-diagonal entries of the symmetric 4x4 matrix Q are *halves*: D/2, E/2, F/2, G/2, H/2, J/2. Mortenson (Geometric
-Modeling, 3rd ed., section 9.4) prints the mixed terms as 2 D xy, so that his D is half of ours.
+Modeling, on quadric surfaces) prints the mixed terms as 2 D xy, so that his D is half of ours.
 
 Which surface the ten numbers mean is read from Q = [[M, b], [bᵀ, c]] by rank and signs, never from the signs of A, B and C
 alone: those change when the surface is turned.
@@ -32,7 +32,7 @@ ROUNDING = 1e-13  # coefficients are trusted to this fraction: some hundred unit
 class Quadric(Frozen):
     """The quadric A x² + B y² + C z² + D xy + E yz + F zx + G x + H y + J z + K = 0.
 
-    Source: the lecture's list of implicit forms; Mortenson, Geometric Modeling, 3rd ed., section 9.4 (whose D, E, F, G, H, J
+    Source: the lecture's list of implicit forms; Mortenson, Geometric Modeling, on quadric surfaces (whose D, E, F, G, H, J
     are half of these).
 
     Parameters

@@ -20,7 +20,7 @@ class HermiteHyperpatch(Solid):
 
     Index 0, 1 of each axis is the value at 0 and at 1, index 2, 3 the derivative there: G[0, 1, 0] is the corner (0, 1, 0),
     G[2, 1, 0] its S_u, G[2, 3, 0] its S_uv, G[2, 3, 2] its S_uvw. 8 corners, 24 tangents, 24 twists, 8 triple twists make 64
-    (Mortenson, Geometric Modeling, 3rd ed., section 10.1). A face is the `HermitePatch` of one layer of G.
+    (Mortenson, Geometric Modeling, on hyperpatches). A face is the `HermitePatch` of one layer of G.
 
     Parameters
     ----------
@@ -68,8 +68,8 @@ class HermiteHyperpatch(Solid):
 class BezierHyperpatch(Solid):
     """The Bezier solid S(u, v, w) = Σ B_i(u) B_j(v) B_k(w) P_ijk of a net of control points, of any degrees.
 
-    The tricubic one has 4 x 4 x 4 = 64 points, 56 of them on the six faces, 8 inside (Mortenson, Geometric Modeling, 3rd ed.,
-    section 10.3). It lies in the convex hull of its net. A face is the `BezierPatch` of one layer. Derivatives to any order.
+    The tricubic one has 4 x 4 x 4 = 64 points, 56 of them on the six faces, 8 inside (Mortenson, Geometric Modeling, on
+    hyperpatches). It lies in the convex hull of its net. A face is the `BezierPatch` of one layer. Derivatives to any order.
 
     Parameters
     ----------

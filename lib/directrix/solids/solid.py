@@ -22,7 +22,7 @@ FIRST: Orders = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
 
 
 class Solid(Frozen):
-    """A solid S(u, v, w), u, v, w in [0, 1]: a hyperpatch in Mortenson's word (Geometric Modeling, 3rd ed., chapter 10).
+    """A solid S(u, v, w), u, v, w in [0, 1]: a hyperpatch in Mortenson's word (Geometric Modeling).
 
     Called with numbers or arrays that broadcast against each other it gives points of shape
     ``np.broadcast_shapes(u.shape, v.shape, w.shape) + (3,)``: scalars (3,), empty arrays (0, 3). Parameters within 1e-12 of

@@ -25,7 +25,7 @@ class Bilinear(Surface):
     """The bilinear patch of four corners: both families of lines on it are straight.
 
     S(u, w) = (1-u)(1-w) p00 + (1-u) w p01 + u (1-w) p10 + u w p11. It is a plane quadrilateral if the corners are coplanar,
-    else part of a hyperbolic paraboloid (Mortenson, Geometric Modeling, 3rd ed., section 7.5). Derivatives to any order.
+    else part of a hyperbolic paraboloid (Mortenson, Geometric Modeling, on ruled surfaces). Derivatives to any order.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ class Bilinear(Surface):
 class Ruled(Surface):
     """The ruled surface between two curves: straight lines join points of equal parameter.
 
-    S(u, w) = (1-w) c0(u) + w c1(u) (Mortenson, Geometric Modeling, 3rd ed., section 7.5). Which points are joined depends on
+    S(u, w) = (1-w) c0(u) + w c1(u) (Mortenson, Geometric Modeling, on ruled surfaces). Which points are joined depends on
     the parametrisation of the curves. Two coaxial circles give a cylinder, a cone, or, one started later, a hyperboloid of one
     sheet. Derivatives as far as the curves have them.
 

@@ -25,7 +25,7 @@ class HermitePatch(TensorPatch):
              [pu00, pu01, puw00, puw01],
              [pu10, pu11, puw10, puw11]]
 
-    in Mortenson's order (Geometric Modeling, 3rd ed., section 8.2), first index u: p01 is the corner u = 0, w = 1; pu, pw are
+    in Mortenson's order (Geometric Modeling, 3rd ed., chapter 7), first index u: p01 is the corner u = 0, w = 1; pu, pw are
     derivatives by u and w; the twist puw is the mixed derivative. In his words S = U M_F G M_Fᵀ Wᵀ with U = (u³ u² u 1). The
     twists do not move the boundary curves. Derivatives to any order; those above the third are 0.
 

@@ -17,7 +17,7 @@ class PointPatch(TensorPatch):
     """The patch of degrees (m - 1, n - 1) through m x n points: S(tu[i], tw[j]) = P[i, j].
 
     S = Σ L_i(u) L_j(w) P_ij, L_i(t) = Π_{k != i} (t - t_k)/(t_i - t_k). With 4 x 4 points at 0, 1/3, 2/3, 1 it is the
-    sixteen-point form (Mortenson, Geometric Modeling, 3rd ed., section 8.4). The parameters have to be chosen: others give
+    sixteen-point form (Mortenson, Geometric Modeling). The parameters have to be chosen: others give
     another surface through the same points. Beyond some twenty points a direction the surface oscillates between them.
     Derivatives to any order.
 
@@ -26,7 +26,7 @@ class PointPatch(TensorPatch):
     points : (m, n, 3), m, n >= 2, first index along u, in any one unit of length
     tu, tw : (m,) and (n,), increasing from 0 to 1; or ``chord``
         Equally spaced if not given. ``chord`` takes the chord lengths of the rows, made 1 in all and averaged
-        (Piegl & Tiller, The NURBS Book, 2nd ed., equations 9.5 and 9.8).
+        (Piegl & Tiller, The NURBS Book, 2nd ed., equation 9.5 and algorithm A9.3).
 
     Raises
     ------

@@ -179,3 +179,18 @@ def test_a_mask_tells_a_place_and_how_many():
     verdict = judge(half, lambda u, w: np.asarray(u) + w < 1, seed=4)
     assert verdict.fraction == 0.0
     assert "False where the answer is True, at 9 of" in verdict.message
+
+
+def test_a_truth_in_an_array_or_as_a_word_is_asked_for_a_single_one():
+    """Not "says (1)", and not "the answer is a number"."""
+    row = judge(posed(True), lambda a: np.array([True])).message
+    assert "says" not in row
+    assert row.endswith("The answer is a single True or False: is an index missing, or all() or any()?")
+    word = judge(posed(True), lambda a: "yes").message
+    assert "The answer is True or False; your function returned the word “yes”." in word
+
+
+@pytest.mark.parametrize("wrong", [NET, np.concatenate([NET, NET])], ids=["half", "joined"])
+def test_half_of_a_pair_is_asked_for_the_other_half(wrong):
+    look = judge(posed((NET, np.ones((4, 3)))), lambda a: wrong).part("look")
+    assert look == "Return all of them in one line, in the order of the statement, with commas between."
