@@ -41,7 +41,8 @@ class Join(NamedTuple):
 def join(a: Any, b: Any) -> Join:
     """The order of continuity between two curves, or two patches, at the ends or edges that lie nearest to each other.
 
-    C0: the edges are the same, point for point, to 1e-9 of the size of both. G1: besides, the tangent planes agree along the
+    Where edges of both meet in a pole, and other edges meet too, those count. C0: the edges are the same, point for point, to
+    1e-9 of the size of both. G1: besides, the tangent planes agree along the
     edge and b goes on where a leaves off. C1, C2: the first (and second) derivatives across the edge are equal as well, with a
     and b run through at the speed of their own parameters (Farin, Curves and Surfaces for CAGD, 5th ed., chapter 11).
 
@@ -75,7 +76,14 @@ def join(a: Any, b: Any) -> Join:
             for reverse in (False, True) if edges is EDGES else (False,):
                 there = end(b, edge_b, 0)[::-1] if reverse else end(b, edge_b, 0)
                 pairs.append((float(norm(end(a, edge_a, 0) - there).max()), edge_a, edge_b, reverse))
-    gap, edge_a, edge_b, reverse = min(pairs, key=lambda pair: (pair[0] > GAP * size, pair[0] if pair[0] > GAP * size else 0.0))
+    points = {edge for edge in edges if norm(end(a, edge, 0) - end(a, edge, 0)[0]).max() <= GAP * size}
+
+    def rank(pair: tuple[float, str, str, bool]) -> tuple[bool, float, bool]:
+        """Edges that meet before others; of these, edges before what has shrunk to a point, as at a pole."""
+        apart = pair[0] > GAP * size
+        return apart, pair[0] if apart else 0.0, pair[1] in points
+
+    gap, edge_a, edge_b, reverse = min(pairs, key=rank)
     if gap > GAP * size:
         return Join("none", edge_a, edge_b, reverse, gap)
 

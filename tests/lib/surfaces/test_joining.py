@@ -76,3 +76,10 @@ def test_refused(a, b):
     """Two of a kind."""
     with pytest.raises(dx.GeometryError, match="join needs two curves or two surfaces; got"):
         dx.join(a, b)
+
+
+@pytest.mark.parametrize("whole", [dx.Sphere(2), dx.Cone(2, 0, 3).swap(), dx.Triangle((0, 0, 0), (2, 0, 1), (0, 3, 0)).swap()])
+def test_halves_that_share_a_pole_join_along_their_edge(whole):
+    """Their collapsed edges meet as well, in the pole, where nothing can be smooth."""
+    found = dx.join(*whole.split(w=0.3))
+    assert ({found.edge_a, found.edge_b}, found.continuity) == ({"w=0", "w=1"}, "G1")  # at the cut or at the seam
