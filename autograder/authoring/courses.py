@@ -18,7 +18,7 @@ from typing import Any
 
 import nbformat
 
-from autograder import catalogue, settings
+from autograder import catalogue
 from autograder.course import Course
 from autograder.errors import CourseError, DirectrixError, SubmissionError
 from autograder.notebook import source
@@ -103,26 +103,28 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
     An assignment of the course's own, ``assignments/NN-slug``, is built into ``source/`` first: its text is the master. With
     ``with_exercises`` its exercises are put beside the notebook, for ``check`` in the learners' own JupyterLab.
 
-    Returns the folder ``release/NAME``. Raises CourseError with nbgrader's own words where it refuses.
+    Returns the folder ``release/NAME``; it and ``source/`` are where the course's settings have them. Raises CourseError with
+    nbgrader's own words where it refuses.
     """
     from nbgrader.apps import NbGraderAPI  # slow to import, and only needed here
 
     if not (course / catalogue.CONFIG).is_file():
         raise CourseError(f"{course} is not a course: it has no nbgrader_config.py; make one with `directrix new FOLDER`")
-    own = _own_assignment(course, name)
+    found, own = Course(course), _own_assignment(course, name)
+    name = own.name if own is not None else name
+    master, released = (_folder(course, found, step, name) for step in ("source", "release"))
     if own is not None:
-        name = own.name
-        _build(own, course / "source" / own.name)
+        _build(own, master)
     if with_exercises and own is None:
         raise CourseError(
             f"{name} is no assignment of this course's own, so it has no exercises to release; take the option away"
         )
-    if not (course / "source" / name).is_dir():
-        there = sorted(path.name for path in (course / "source").glob("*") if path.is_dir())
-        raise CourseError(f"no assignment {name!r} in {course / 'source'}; there are: {', '.join(there) or 'none'}")
-    _readable(course / "source" / name)
-    config: Any = settings.load(course.resolve())
-    config.CourseDirectory.root = str(course.resolve())
+    if not master.is_dir():
+        there = sorted(path.name for path in master.parent.glob("*") if path.is_dir())
+        raise CourseError(f"no assignment {name!r} in {master.parent}; there are: {', '.join(there) or 'none'}")
+    _readable(master)
+    config: Any = found.config
+    config.CourseDirectory.root = str(found.root)
     with _quiet("traitlets"), _tools_on_path():
         result = NbGraderAPI(config=config).generate_assignment(name, force=True, create=True)
     if not result["success"]:
@@ -130,11 +132,15 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
         if said.endswith("Canceled"):  # nbgrader's word for Ctrl-C
             raise KeyboardInterrupt
         raise CourseError(f"nbgrader could not release {name}: {said}")
-    released = course / "release" / name
     if own is not None and with_exercises:
         _put_beside(own, released / catalogue.BESIDE / own.folder.name)
-    _expect_grading(Course(course), name)
+    _expect_grading(found, name)
     return released
+
+
+def _folder(course: Path, found: Course, step: str, name: str) -> Path:
+    """The instructor's folder of a step, written from where the course was named."""
+    return course / os.path.relpath(found.path(step, ".", name), found.folder)
 
 
 def _expect_grading(course: Course, name: str) -> None:

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from autograder.cli.options import AsJson, CourseOption, console_for, opened
+from autograder.cli.options import AsJson, CourseOption, console_for, opened, shown
 
 
 def collect(
@@ -31,7 +31,8 @@ def collect(
     from autograder.report import plain
 
     console = console_for(as_json)
-    found = collecting.collect(opened(course), archive, assignment, pattern=pattern or None, force=force)
+    into = opened(course)
+    found = collecting.collect(into, archive, assignment, pattern=pattern or None, force=force)
     if as_json:
         print(json.dumps(collecting.to_dict(found), allow_nan=False))
     for one in found:
@@ -41,6 +42,6 @@ def collect(
             console.print(f"  [yellow]not taken:[/] {escape(plain(f'{name}: {reason}' if name else reason))}", highlight=False)
     placed = sum(one.placed for one in found)
     submissions = "1 submission" if placed == 1 else f"{placed} submissions"
-    console.print(f"{submissions} of {assignment} in {course / 'submitted'}", highlight=False, markup=False)
+    console.print(f"{submissions} of {assignment} in {shown(course, into, 'submitted')}", highlight=False, markup=False)
     if any(one.refused for one in found):
         raise typer.Exit(1)

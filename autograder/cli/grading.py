@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from autograder.cli.course import grade_with_progress
-from autograder.cli.options import AsJson, CourseOption, GradingLevel, console_for, opened
+from autograder.cli.options import AsJson, CourseOption, GradingLevel, console_for, opened, shown
 
 
 def check(
@@ -96,7 +96,7 @@ def feedback(
         print(json.dumps(paths))
     else:
         pages_are = "1 page" if count == 1 else f"{count} pages"
-        console_for(as_json).print(f"{pages_are} under {course / 'feedback'}", highlight=False, markup=False)
+        console_for(as_json).print(f"{pages_are} under {shown(course, of, 'feedback')}", highlight=False, markup=False)
     now = set(of.students("autograded", assignment))
     for one in of.students("feedback", assignment):
         if one not in now and (not student or one in student):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -46,6 +47,12 @@ def opened(folder: Path) -> Course:
     from autograder.course import Course
 
     return Course(folder)
+
+
+def shown(folder: Path, course: Course, step: str) -> Path:
+    """The folder of a step (``submitted``, ...) as the course's settings have it, written from where the course was named."""
+    place = course.root / str(course.get("CourseDirectory", f"{step}_directory", step))
+    return folder / os.path.relpath(place, course.folder)
 
 
 def paragraphs(verb: Callable[..., Any]) -> str:

@@ -1,11 +1,13 @@
 """An assignment whose exercise cells cannot be graded as they stand is not released."""
 
 import json
+import zipfile
 
 import nbformat
 import pytest
 
 from autograder import authoring
+from autograder.cli import collecting
 from autograder.errors import CourseError
 
 
@@ -37,6 +39,30 @@ def source(made):
 def test_the_shipped_notebook_is_released(made):
     """The neighbour that must pass."""
     assert (authoring.release(made, "A1") / "known-forms.ipynb").is_file()
+
+
+def test_a_course_whose_folders_have_names_of_its_own_is_released_and_collected_there(tmp_path, capsys):
+    """An nbgrader course from elsewhere: another root, other names, and students below assignments."""
+    folder = tmp_path / "elsewhere"
+    authoring.new_course(folder, ("A1",))
+    (folder / "instructor").mkdir()
+    (folder / "source").rename(folder / "instructor" / "src")
+    with (folder / "nbgrader_config.py").open("a") as config:
+        config.write(
+            'c.CourseDirectory.root = "instructor"\nc.CourseDirectory.source_directory = "src"\n'
+            'c.CourseDirectory.release_directory = "student"\nc.CourseDirectory.submitted_directory = "handins"\n'
+            'c.CourseDirectory.directory_structure = "{nbgrader_step}/{assignment_id}/{student_id}"\n'
+        )
+    released = authoring.release(folder, "A1")
+    assert released == folder / "instructor" / "student" / "A1"
+    assert (released / "known-forms.ipynb").is_file()
+    with pytest.raises(CourseError, match=r"no assignment 'A2' in .*elsewhere/instructor/src; there are: A1"):
+        authoring.release(folder, "A2")
+    with zipfile.ZipFile(tmp_path / "class.zip", "w") as archive:
+        archive.write(released / "known-forms.ipynb", "ada/known-forms.ipynb")
+    collecting.collect(tmp_path / "class.zip", "A1", course=folder)
+    assert f"1 submission of A1 in {folder}/instructor/handins" in capsys.readouterr().out.replace("\n", "")
+    assert (folder / "instructor" / "handins" / "A1" / "ada" / "known-forms.ipynb").is_file()
 
 
 @pytest.mark.parametrize(
