@@ -64,8 +64,11 @@ class Samples:
 
     @cached_property
     def singles(self) -> NDArray[np.intp]:
-        """Indices of the points that are asked for one by one: the corners, then low-discrepancy points."""
-        return np.concatenate([self.corners, np.arange(len(self.points) - ONE_BY_ONE, len(self.points))])
+        """Indices of the points that are asked for one by one: corners, middles of sides, fractions, low-discrepancy points."""
+        middles = [side[len(side) // 2] for side in self.edges.values()]
+        fractions = math.prod(self.grid.shape) + np.arange(self.dimension * len(FRACTIONS))
+        last = np.arange(len(self.points) - ONE_BY_ONE, len(self.points))
+        return np.unique(np.concatenate([self.corners, middles, fractions, last]))
 
     @cached_property
     def inside(self) -> NDArray[np.bool_]:
