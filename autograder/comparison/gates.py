@@ -151,7 +151,7 @@ def _trouble(target: Target, form: Form, answer: Answer | None, wanted: tuple[in
     if isinstance(answer, Unreadable):
         return Trouble(
             form,
-            f"shape.{answer.reason}" if answer.reason in ("parts", "none") else "shape.unreadable",
+            f"shape.{answer.reason}" if answer.reason in ("parts", "none", "object") else "shape.unreadable",
             {**facts, **answer.facts},
         )
     if not isinstance(answer, Numbers):

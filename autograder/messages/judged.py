@@ -373,6 +373,7 @@ JUDGED: dict[str, str] = {
     "shape.one_point": "With {given} for {names} it returns a single point; wanted is {wanted}, a point for each parameter.",
     "shape.parts": "With {given} for {names} the coordinates have different shapes ({parts}) and do not make one array.",
     "shape.none": "With {given} for {names} it returns nothing.",
+    "shape.object": "With {given} for {names} it returns {type}; wanted is an array of shape {wanted}.",
     "shape.unreadable": "With {given} for {names} its answer is not an array of numbers.",
     "shape.other": "With {given} for {names} it returns shape {got}; wanted is {wanted}.",
     "look.coordinates_first": "The three coordinates belong on the last axis: np.stack([x, y, z], axis=-1).",

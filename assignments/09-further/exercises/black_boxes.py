@@ -227,8 +227,9 @@ def _(f, g):
 
 @same_surface.mistake("parameters_must_agree", credit=0.25)
 def _(f, g):
-    """You compare points at matching parameters only. A patch that is run through slowly at first is 'different' for you, and a
-    pipe that begins elsewhere 'moved'. How far is a point of f from the *nearest* point of g, whatever its parameters?"""
+    """You compare points at matching parameters only, or your border for sets is narrower than a grid is wide. A patch that is run
+    through slowly at first is 'different' for you, and a pipe that begins elsewhere 'moved'. How far is a point of f from the
+    *nearest* point of g, whatever its parameters, and what is that compared with?"""
     return _ladder(f, g, sets=False)
 
 

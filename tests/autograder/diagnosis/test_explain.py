@@ -228,3 +228,20 @@ def test_an_axis_that_is_missing_is_not_taken_for_math_cos():
     message = judge(line, lambda u, p: u * p).message
     assert message.endswith("an axis for x, y, z: np.asarray(u, float)[..., None].")
     assert "np.cos, not math.cos" in judge(line, lambda u, p: math.cos(0 * u) * u * p).message
+
+
+def test_a_mesh_that_is_too_large_to_read_is_called_large():
+    """Not "not an array of numbers": three parameters of 222 values each make a mesh of 33 million."""
+
+    @exercise(points=1, title="Cube", kind="solid")
+    def cube(u, v, w):
+        """Return (u, v, w)."""
+        return stack(u, v, w)
+
+    cube.data(lambda rng: {})
+
+    def meshed(u, v, w):
+        n = [np.size(one) for one in (u, v, w)]
+        return np.broadcast_to(0.0, (*n, 3)) if max(n) > 1 else stack(u, v, w)
+
+    assert "it returns an array of 32823144 numbers, more than" in judge(cube, meshed).message
