@@ -209,15 +209,6 @@ class TestGates:
 
         assert "corner u = 1, w = 1" in self.message(tube, call, "not finite")
 
-    @pytest.mark.parametrize("bad", [lambda u, w: w == 1 / 3, lambda u, w: u == 0 < w < 1, lambda u, w: 0 < u < 1 == w])
-    def test_a_function_of_single_numbers_is_asked_at_fractions_and_on_sides_too(self, tube, bad):
-        """A spline's knots lie there, and its last span ends there."""
-
-        def call(u, w, r, h):
-            return [math.nan if bad(u, w) else r * math.cos(TURN * u), r * math.sin(TURN * u), h * w]
-
-        self.message(tube, call, "not finite")
-
     def test_dividing_by_the_largest_parameter_is_not_pointwise(self, tube):
         self.message(tube, lambda u, w, r, h: right(u / (np.max(u) + 1e-300), w, r, h), "not pointwise")
 

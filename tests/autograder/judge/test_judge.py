@@ -257,6 +257,17 @@ class TestAtTheTolerance:
         assert judge(tube, lambda *a: 0.5 * call(*a) + 0.5 * right(*a)).tier == ("identical" if amount < 1e-9 else "close")
 
 
+class TestSingleNumbers:
+    @pytest.mark.parametrize("bad", [lambda u, w: w == 1 / 3, lambda u, w: u == 0 < w < 1, lambda u, w: 0 < u < 1 == w])
+    def test_a_function_of_single_numbers_is_asked_at_fractions_and_on_sides_too(self, tube, bad):
+        """A spline's knots lie there, and its last span ends there."""
+
+        def call(u, w, r, h):
+            return [math.nan if bad(u, w) else r * math.cos(TURN * u), r * math.sin(TURN * u), h * w]
+
+        assert judge(tube, call).tier == "not finite"
+
+
 class TestOtherDimensions:
     def test_a_curve_run_backwards(self, helix):
         verdict = judge(helix, lambda u, r, pitch: helix.reference(1 - np.asarray(u), r, pitch))
