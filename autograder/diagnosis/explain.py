@@ -183,7 +183,7 @@ class Explanation:
         handled = {"vector", "mesh", "scalar"} - {t.form for t in self.troubles}
         if handled == {"scalar"} and all(t.key == "shape.raised" for t in self.troubles):
             alone = self.exercise.kind != "mask" and all("broadcast" in t.facts["message"] for t in self.troubles)
-            parts.append(("look", say("look.needs_axis", name=self._names()[0]) if alone else say("look.numbers_only")))
+            parts.append(("look", say("look.needs_axis", name=self._names()[-1]) if alone else say("look.numbers_only")))
         else:
             key = self.troubles[0].key
             look = LOOKS.get(key) or _look_of(key, len(self._names())) or "look.shape"

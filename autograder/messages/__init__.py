@@ -108,14 +108,20 @@ def digits_for(deviation: float, size: float) -> int:
 
 def percent(share: float) -> str:
     """A share of 1 as a percentage: ``0.16 %``, ``48 %``."""
-    return f"{number(100 * share, 2 if share < 1 else 3)} %"
+    return f"{_rounded(100 * share, 2 if share < 1 else 3)} %"
+
+
+def _rounded(x: float, digits: int) -> str:
+    """As `number`, but 99.7 is 100 and not 1e+02."""
+    short = number(x, digits)
+    return f"{float(short):.0f}" if "e+" in short and x < 1e6 else short
 
 
 def amount(share: float) -> str:
     """A length relative to the size: ``48 % of its size``, ``13 times its size``."""
     if share >= 3:
-        return say("amount.times", number=number(share, 2))
-    return say("amount.percent", number=number(100 * share, 2 if share < 1 else 3))
+        return say("amount.times", number=_rounded(share, 2))
+    return say("amount.percent", number=_rounded(100 * share, 2 if share < 1 else 3))
 
 
 def place(names: tuple[str, ...], at: Iterable[float]) -> str:

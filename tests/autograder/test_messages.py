@@ -89,7 +89,15 @@ def test_lists_read_as_in_a_sentence(names, text):
 
 
 @pytest.mark.parametrize(
-    ("share", "text"), [(0.00123, "0.12 % of its size"), (0.5, "50 % of its size"), (13.2, "13 times its size")]
+    ("share", "text"),
+    [
+        (0.00123, "0.12 % of its size"),
+        (0.5, "50 % of its size"),
+        (0.997, "100 % of its size"),  # not 1e+02 %
+        (13.2, "13 times its size"),
+        (688.7, "690 times its size"),
+        (3e8, "3e+08 times its size"),
+    ],
 )
 def test_amounts(share, text):
     assert messages.amount(share) == text

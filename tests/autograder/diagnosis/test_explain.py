@@ -226,7 +226,7 @@ def test_an_axis_that_is_missing_is_not_taken_for_math_cos():
 
     line.data(lambda rng: {"p": np.array([3.0, 4.0, 5.0])})
     message = judge(line, lambda u, p: u * p).message
-    assert message.endswith("an axis for x, y, z: np.asarray(u, float)[..., None].")
+    assert message.endswith("needs an axis for x, y, z, as in np.asarray(u, float)[..., None].")
     assert "np.cos, not math.cos" in judge(line, lambda u, p: math.cos(0 * u) * u * p).message
 
 
