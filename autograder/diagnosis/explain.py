@@ -173,6 +173,8 @@ class Explanation:
         elif gate.key != "error.stub" and gate.key != "error.missing":
             parts.append(("where", say("where.data", data=self._described(finding.target))))
         look = LOOKS.get(gate.key) or _look_of(gate.key, len(self._names()))
+        if "matmul:" in facts.get("message", ""):
+            look = "look.matmul"
         if look is not None:
             parts.append(("look", say(look, **facts)))
         return parts

@@ -383,6 +383,10 @@ JUDGED: dict[str, str] = {
     "look.shape.coordinates": "Count what goes into np.stack([x, y, z], axis=-1): one array for each coordinate.",
     "look.shape_curve": "Use NumPy operations on the whole array (np.cos, not math.cos), then np.stack([x, y, z], axis=-1).",
     "look.numbers_only": "It handles single numbers only: use NumPy functions (np.cos, not math.cos), which take whole arrays.",
+    "look.matmul": (
+        "Print the shapes on both sides of @: the last axis on the left meets the last but one on the right. In a net the "
+        "last axis is x, y, z; np.einsum lets you say which axes meet."
+    ),
     "look.needs_axis": "An array that multiplies points needs an axis for x, y, z, as in np.asarray({name}, float)[..., None].",
     # --- gates: finite, pointwise, repeatable
     "finite.corner": "It is not a finite number at the corner {place}.",

@@ -245,3 +245,17 @@ def test_a_mesh_that_is_too_large_to_read_is_called_large():
         return np.broadcast_to(0.0, (*n, 3)) if max(n) > 1 else stack(u, v, w)
 
     assert "it returns an array of 32823144 numbers, more than" in judge(cube, meshed).message
+
+
+def test_a_product_of_matrices_that_do_not_fit_is_asked_for_its_axes():
+    """B P B with a net P (4, 4, 3): numpy speaks of a gufunc signature, and means that @ met x, y, z."""
+
+    @exercise(points=1, title="Rows", kind="net")
+    def rows(P):
+        """Return twice P."""
+        return 2 * P
+
+    rows.data(lambda rng: {"P": rng.uniform(size=(4, 4, 3))})
+    look = judge(rows, lambda P: 2 * np.eye(4) @ P @ np.eye(4)).part("look")
+    assert look.startswith("Print the shapes on both sides of @")
+    assert "Print the shapes" not in judge(rows, lambda P: P + np.ones(5)).message
