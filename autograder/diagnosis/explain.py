@@ -16,7 +16,7 @@ from autograder.comparison import values as value_rungs
 from autograder.comparison.answers import Answer, Numbers, Raised, Several
 from autograder.comparison.gates import Gate, Trouble, error_gate
 from autograder.comparison.maps import CLOSE, Sampled, Shifted
-from autograder.comparison.sets import SAME, SetFinding
+from autograder.comparison.sets import RATIO, SAME, SetFinding
 from autograder.comparison.target import Target
 from autograder.diagnosis.contrast import Contrast, contrast
 from autograder.diagnosis.holding import Told, of_data, right_places
@@ -266,7 +266,7 @@ class Explanation:
             key = key if len(where.corners) == where.all_corners else "wrong.same_set"
             return [say(key, noun=self.noun, names=listing(names))], say("look.same_set")
         if self.tier == "covered":
-            if found.ratio < 1.5:
+            if found.ratio < 1.5 and found.collapsed > RATIO:
                 return [say("wrong.collapsed", percent=messages.percent(found.collapsed))], say("look.collapsed")
             return [say("wrong.covered", noun=self.noun, times=times)], say("look.covered")
         if self.tier == "more":

@@ -184,6 +184,11 @@ class TestTiers:
         assert "goes on beyond it, to places that hardly add to its size" in judge(arch, leap).message
         folded = judge(arch, lambda u, w, a: arch.reference(np.abs(2 * np.asarray(u) - 1), w, a)).message
         assert "covers it 2 times" in folded
+        overlapping = judge(
+            arch, lambda u, w, a: arch.reference(np.interp(u, [0, 0.6, 0.8, 1], [0, 0.8, 0.6, 1]), w, a)
+        ).message
+        assert "covers it 1.4" in overlapping
+        assert "squeezed" not in overlapping
         squeezed = judge(arch, lambda u, w, a: arch.reference(np.minimum(2 * np.asarray(u), 1), w, a)).message
         assert "of the parameter domain is squeezed into nothing" in squeezed
         line = judge(arch, lambda u, w, a: arch.reference(u, 0 * np.asarray(w), a)).message
