@@ -50,10 +50,15 @@ def configure(c: Any) -> None:
     c.Autograde.autograde_preprocessors = list(AUTOGRADE)
     c.GenerateFeedback.exporter_class = "autograder.bridge.pages.Feedback"
     c.GenerateFeedback.preprocessors = []
+    pages_of_formgrader(c)
+    serving.guard(pages_of_formgrader)
+
+
+def pages_of_formgrader(c: Any) -> None:
+    """Set how formgrader shows a notebook."""
     c.HTMLExporter.preprocessors = ["autograder.bridge.pages.Harmless"]
     c.HTMLExporter.filters = {"markdown2html": "autograder.bridge.pages.markdown2html"}
     c.HTMLExporter.extra_template_basedirs = [str(TEMPLATES), *_nbgrader_templates()]
-    serving.guard()
 
 
 def _nbgrader_templates() -> list[str]:

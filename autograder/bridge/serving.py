@@ -1,16 +1,21 @@
-"""Formgrader's pages while a server shows them: three things that nbgrader 0.9 leaves to whoever writes a link.
+"""Formgrader's pages while a server shows them: what nbgrader 0.9 leaves to whoever writes a link, and to where a course lies.
 
 What learners hand in may hold links, and a link in a page of formgrader is followed with the instructor's rights: it may lead
 to a file beside the notebook, to any address of formgrader, or back to the course list with a folder. nbgrader shows such a
 file as a page of its own server, writes the address into a page as it stands, and runs the folder's ``nbgrader_config.py``. So
 a click would be enough to read the gradebook, or to run a program as the instructor.
 
-nbgrader has no setting for any of them, so its classes are changed where they are loaded: in the server, and nowhere else.
+Where a course's configuration names another folder as its root, nbgrader reads it too late for the page of a submission, which
+is then nbgrader's own: it asks another machine for what draws formulas.
+
+nbgrader has no setting for any of these, so its classes are changed where they are loaded: in the server, and nowhere else.
 """
 
 from __future__ import annotations
 
+import copy
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -18,14 +23,19 @@ from typing import Any
 # be outside, and runs none of a page's scripts.
 SEALED = "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; media-src data:"
 PDF = "application/pdf"
+EXPORTER = "nbgrader_exporter"
 _AS_TEXT = str.maketrans({"<": "&lt;", ">": "&gt;", '"': "&quot;"})
 
 
-def guard() -> None:
-    """Close them in nbgrader's formgrader, if this process serves it; once, however often a config is read."""
+def guard(pages: Callable[[Any], None]) -> None:
+    """Close them in nbgrader's formgrader, if this process serves it; once, however often a config is read.
+
+    ``pages`` puts into a configuration how a notebook is shown.
+    """
     handlers = sys.modules.get("nbgrader.server_extensions.formgrader.handlers")
     if handlers is not None and "set_extra_headers" not in vars(handlers.SubmissionFilesHandler):
         handlers.SubmissionFilesHandler.set_extra_headers = _seal
+        handlers.BaseHandler.exporter = property(_showing(pages))
         handlers.BaseHandler.render = _escaping(handlers.BaseHandler.render)
         handlers.FormgraderHandler.get = _outside_courses(handlers.FormgraderHandler.get, handlers.web)
 
@@ -35,6 +45,21 @@ def _seal(handler: Any, path: str) -> None:
     handler.set_header("X-Content-Type-Options", "nosniff")
     if handler.get_content_type() != PDF:
         handler.set_header("Content-Security-Policy", SEALED)
+
+
+def _showing(pages: Callable[[Any], None]) -> Callable[[Any], Any]:
+    """What turns a notebook into formgrader's page: nbgrader's exporter, with our settings if they came too late for it."""
+
+    def exporter(handler: Any) -> Any:
+        made = handler.settings[EXPORTER]
+        config = copy.deepcopy(made.config)
+        pages(config)
+        ours, there = config.HTMLExporter, made.config.HTMLExporter
+        if any(set(ours[name]).difference(there.get(name, ())) for name in ("preprocessors", "extra_template_basedirs")):
+            handler.settings[EXPORTER] = made = type(made)(config=config)
+        return made
+
+    return exporter
 
 
 def _escaping(render: Any) -> Any:

@@ -1,8 +1,14 @@
 """What the guard of formgrader's server takes for a course inside a course, and which files it seals."""
 
-import pytest
+from types import SimpleNamespace
 
-from autograder.bridge.serving import PDF, SEALED, _seal, course_around
+import pytest
+from nbconvert.exporters import HTMLExporter
+from nbformat.v4 import new_notebook, new_raw_cell
+from traitlets.config import Config
+
+from autograder import bridge
+from autograder.bridge.serving import EXPORTER, PDF, SEALED, _seal, _showing, course_around
 
 
 @pytest.fixture
@@ -37,6 +43,18 @@ def test_courses_beside_and_below_a_configuration_can_be_opened(courses):
     for loaded in (courses, courses / "first"):
         assert course_around(courses / "first", loaded) is None
         assert course_around(courses / "second", loaded) is None
+
+
+def test_a_page_whose_settings_came_too_late_is_ours_all_the_same():
+    """Where the course's root is another folder, nbgrader makes its exporter before it has read the course's configuration."""
+    stock = {"template_name": "formgrade", "extra_template_basedirs": bridge._nbgrader_templates()}
+    handler = SimpleNamespace(settings={EXPORTER: HTMLExporter(config=Config(HTMLExporter=stock))})
+    show = _showing(bridge.pages_of_formgrader)
+    learners = new_notebook(cells=[new_raw_cell("<script>window.stolen = 1</script>")])
+    page, _ = show(handler).from_notebook_node(learners, resources={"index": 0, "total": 1})
+    assert "<script>window.stolen" not in page
+    assert "cdnjs" not in page
+    assert show(handler) is handler.settings[EXPORTER]  # made once
 
 
 @pytest.mark.parametrize(("kind", "sealed"), [("text/html", True), ("image/svg+xml", True), ("image/png", True), (PDF, False)])
