@@ -55,6 +55,7 @@ LOOKS = {
     "repeat.other": "look.repeat",
     "repeat.raised": "look.repeat",
     "shape.raised_writes": "look.writes",
+    "shape.object": "look.shape",  # most often a mesh of all parameters, too large to read
     "shape.coordinates": "look.shape.coordinates",
 }
 

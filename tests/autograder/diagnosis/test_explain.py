@@ -249,7 +249,9 @@ def test_a_mesh_that_is_too_large_to_read_is_called_large():
         n = [np.size(one) for one in (u, v, w)]
         return np.broadcast_to(0.0, (*n, 3)) if max(n) > 1 else stack(u, v, w)
 
-    assert "it returns an array of 32823144 numbers, more than" in judge(cube, meshed).message
+    message = judge(cube, meshed).message
+    assert "it returns an array of 32823144 numbers, more than" in message
+    assert "Begin with u, v, w = np.broadcast_arrays(u, v, w)" in message
 
 
 def test_a_product_of_matrices_that_do_not_fit_is_asked_for_its_axes():
