@@ -53,7 +53,7 @@ def test_fences_are_closed_and_constants_are_numbers(built):
     """Markdown that any renderer reads: fences in pairs; defaults that a reader understands."""
     for page in built.values():
         assert page.count("```") % 2 == 0
-    assert "samples=65" in built["pictures.md"]
+    assert "lines=8" in built["pictures.md"]
     assert "| ellipsoid" in built["implicit-surfaces.md"] or "ellipsoid  " in built["implicit-surfaces.md"]
 
 
