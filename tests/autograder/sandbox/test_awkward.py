@@ -29,11 +29,21 @@ def masked(text):
     return text
 
 
+def joined(outputs):
+    """Outputs with printed text in one piece: on a busy machine a kernel sends in two what was printed at once."""
+    made = []
+    for output in map(dict, outputs):
+        if made and output["output_type"] == made[-1]["output_type"] == "stream" and output["name"] == made[-1]["name"]:
+            made[-1]["text"] += output["text"]
+        else:
+            made.append(output)
+    return made
+
+
 def simplified(outputs, lines=True):
     """Outputs without addresses, times, paths and colours; with ``lines`` false also without the lines around an error."""
     found = []
-    for output in outputs:
-        output = dict(output)
+    for output in joined(outputs):
         if output["output_type"] == "error":
             shown = re.sub(r"\x1b\[[0-9;]*m", "", "\n".join(output["traceback"])).splitlines()
             if not lines:
