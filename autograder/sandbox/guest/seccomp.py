@@ -55,6 +55,8 @@ XATTR = """
     getxattr:191:8 lgetxattr:192:9 fgetxattr:193:10 setxattr:188:5 lsetxattr:189:6 fsetxattr:190:7 listxattr:194:11
     llistxattr:195:12 flistxattr:196:13 removexattr:197:14 lremovexattr:198:15 fremovexattr:199:16
 """
+# Landlock does not cover these: where notebooks share a scratch folder, one could close or mark another one's.
+MODES = ("chmod", "fchmod", "fchmodat", "utime", "utimes", "utimensat", "futimesat")
 # What a Jupyter kernel takes beyond that: programs, sockets of its own network namespace, terminals.
 PROCESSES = """
     fork:57:- vfork:58:- execve:59:221 arch_prctl:158:- connect:42:203 bind:49:200 listen:50:201 accept:43:202 accept4:288:242
@@ -88,8 +90,10 @@ Instruction = tuple[int, int, int, int]
 Code = list[Instruction]
 
 
-def programme(machine: str | None = None, *, processes: bool = False) -> bytes:
+def programme(machine: str | None = None, *, processes: bool = False, shared: bool = False) -> bytes:
     """The filter as an array of struct sock_filter; with ``processes`` the one for a Jupyter kernel, which may start programs.
+
+    ``shared``: for notebooks whose folders lie in one file system (level A-), so that none may change modes or times there.
 
     Raises
     ------
@@ -103,7 +107,7 @@ def programme(machine: str | None = None, *, processes: bool = False) -> bytes:
     code: Code = [(LOAD, 0, 0, ARCHITECTURE), (EQUAL, 1, 0, architecture), (RETURN, 0, 0, KILL), (LOAD, 0, 0, NUMBER)]
     if machine == "x86_64":
         code += [(AT_LEAST, 0, 1, X32), (RETURN, 0, 0, KILL)]
-    code += _decide(_ranges(column, processes))
+    code += _decide(_ranges(column, processes, shared))
     return b"".join(struct.pack("<HBBI", *instruction) for instruction in code)
 
 
@@ -117,13 +121,16 @@ def numbers(table: str, column: int) -> dict[str, int]:
     return found
 
 
-def _ranges(column: int, processes: bool = False) -> list[tuple[int, Code]]:
+def _ranges(column: int, processes: bool = False, shared: bool = False) -> list[tuple[int, Code]]:
     """(first number, what to do from there on), sorted; neighbours with the same answer are one range."""
     refuse: Code = [(RETURN, 0, 0, ERRNO | errno.EPERM)]
     answers = dict.fromkeys(range(NEWEST + 1), refuse)
     for table, answer in ((ALLOWED, ALLOW), (PROCESSES if processes else "", ALLOW), (XATTR, ERRNO | errno.ENOTSUP)):
         for number in numbers(table, column).values():
             answers[number] = [(RETURN, 0, 0, answer)]
+    if shared:
+        known = numbers(ALLOWED, column)
+        answers |= {known[name]: refuse for name in MODES if name in known}
     conditions = {
         "clone": _masked(
             0, CLONE_VM | CLONE_SIGHAND | CLONE_THREAD | CLONE_NAMESPACES | CLONE_PTRACE | CLONE_VFORK,

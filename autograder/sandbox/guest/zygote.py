@@ -59,7 +59,7 @@ class Zygote:
         self.count = 0
         self.tried = False  # the first child, which the trusted side waits for, has ended
         self.warm = False  # the first step of what is left is done: every child but the first is cloned after it
-        self.programme = seccomp.programme()
+        self.programme = seccomp.programme(shared=level == "A-")
         self.tid_address = system.thread_id_address()
         self.shell = Shell.for_notebooks()
         _warm_up(self.shell, preload)

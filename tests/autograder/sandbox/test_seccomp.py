@@ -10,9 +10,9 @@ ALLOW, KILL = 0x7FFF0000, 0x80000000
 ERRNO = {name: 0x50000 | number for name, number in {"EPERM": 1, "ENOSYS": 38, "ENOTSUP": 95, "ENOTTY": 25}.items()}
 
 
-def decide(machine, number, arguments=(), architecture=None):
+def decide(machine, number, arguments=(), architecture=None, **kind):
     """Run the programme as the kernel would."""
-    code = list(struct.iter_unpack("<HBBI", seccomp.programme(machine)))
+    code = list(struct.iter_unpack("<HBBI", seccomp.programme(machine, **kind)))
     data = struct.pack("<iIQ6Q", number, architecture or seccomp.ARCHITECTURES[machine][0], 0, *(*arguments, *[0] * 6)[:6])
     at, value = 0, 0
     while True:
@@ -57,6 +57,14 @@ def test_every_number_gets_the_answer_of_its_table(machine):
             expected = ERRNO["ENOSYS"]
         if call not in conditional:
             assert decide(machine, call) == expected, call
+
+
+def test_notebooks_that_share_a_file_system_change_no_modes_there(machine):
+    known = seccomp.numbers(seccomp.ALLOWED, seccomp.ARCHITECTURES[machine][1])
+    refused = {name for name, call in known.items() if decide(machine, call, shared=True) != decide(machine, call)}
+    assert refused == set(seccomp.MODES) & set(known)
+    assert {"fchmod", "fchmodat", "utimensat"} <= refused
+    assert decide(machine, known["fchmodat"], shared=True) == ERRNO["EPERM"]
 
 
 @pytest.mark.parametrize(
