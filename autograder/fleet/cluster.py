@@ -57,6 +57,7 @@ class Cluster:
         self.unfinished: list[Task] = []
         self._closed = False
         self._sent: dict[distributed.Future, list[Task]] = {}
+        self._digests: dict[str, str] = {}  # of what was sent, by student
         self._again: deque[Task] = deque()  # each by itself: one of them may be what ended its workers
         self._ready: list[tuple[Task, Landed]] = []
         with self._scheduler_gone():
@@ -123,6 +124,7 @@ class Cluster:
                     self._ready.append((task, submitted))
                 else:
                     tasks.append(task)
+                    self._digests[task.student] = submitted.digest
                     sent.append((task.student, task.alone, submitted, self._seeds(task.student, submitted)))
                     size += sum(map(len, submitted.files.values()))
                 if len(tasks) >= self._size or size > BATCH_BYTES:
@@ -142,13 +144,27 @@ class Cluster:
             answer = future.result() if error is None else b""
         tasks = self._sent.pop(future)
         future.release()
+        why = f"the cluster's workers that had it were lost ({type(error).__name__}: {error})"
         if error is None:
-            for task, landed in zip(tasks, pickle.loads(answer), strict=True):
-                yield task, self._lay_out(landed)
-        elif len(tasks) > 1:
+            answers = pickle.loads(answer)
+            if len(answers) == len(tasks) and all(map(self._of, answers, tasks)):
+                for task, landed in zip(tasks, answers, strict=True):
+                    del self._digests[task.student]
+                    yield task, self._lay_out(landed)
+                return
+            why = "the cluster's worker that had it answered for another submission"
+        if len(tasks) > 1:
             self._again.extend(tasks)
         else:
-            yield tasks[0], Lost(f"the cluster's workers that had it were lost ({type(error).__name__}: {error})")
+            yield tasks[0], Lost(why)
+
+    def _of(self, landed: Landed, task: Task) -> bool:
+        """Whether this came of the task: of the student and of the bytes that were sent. Marks go to whom the record names."""
+        outcome = landed.outcome
+        if outcome is None:
+            return landed.student == task.student
+        named = {landed.student, outcome.student, outcome.record.student, outcome.report.student}
+        return named == {task.student} and outcome.digest == self._digests[task.student]
 
     @contextlib.contextmanager
     def _scheduler_gone(self) -> Iterator[None]:

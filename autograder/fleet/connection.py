@@ -10,6 +10,7 @@ import contextlib
 import ipaddress
 import os
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 from autograder.errors import CourseError
 
@@ -88,10 +89,23 @@ def refuse(addresses: Iterable[str]) -> None:
     exposed = [address for address in addresses if not safe(address)]
     if exposed:
         raise CourseError(
-            f"{exposed[0]} is neither TLS nor on this machine: anybody on the network could read submissions there, and "
-            "run programs as the grader. Start scheduler and workers with tls:// addresses and certificates (docs/cluster.md)"
+            f"{exposed[0]} is neither TLS nor on this machine alone: anybody on the network could read submissions there, and "
+            "run programs as the grader. Start scheduler and workers with tls:// addresses and certificates (docs/cluster.md), "
+            "or with --host 127.0.0.1 where all of them are on one machine"
         )
 
 
+def listening(server: Any) -> list[str]:
+    """Where a scheduler or worker can be reached: not only at the address by which it is known.
+
+    Dask's default is every interface of the machine, also of a process that is known by its loopback address.
+    """
+    return [listener.listen_address for listener in server.listeners]
+
+
 def _refuse_open(client: distributed.Client) -> None:
-    refuse([*([client.scheduler.address] if client.scheduler is not None else []), *client.nthreads()])
+    """Workers refuse themselves, now and when they come: see :class:`autograder.fleet.remote.Grading`."""
+    known = [*([client.scheduler.address] if client.scheduler is not None else []), *client.nthreads()]
+    refuse(known)
+    if any(address.startswith("tcp:") for address in known):  # a lambda, since directrix need not be there
+        refuse(client.run_on_scheduler(lambda dask_scheduler: [at.listen_address for at in dask_scheduler.listeners]))

@@ -10,9 +10,9 @@ from __future__ import annotations
 import contextlib
 import functools
 import hashlib
-import os
 import pickle
 import platform
+import secrets
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -25,7 +25,7 @@ import numpy as np
 from autograder import catalogue
 from autograder.errors import CourseError, SandboxError
 from autograder.exercise import Exercise
-from autograder.fleet.connection import refuse
+from autograder.fleet.connection import listening, refuse
 from autograder.fleet.one import Plan, Rules
 from autograder.fleet.task import Landed, Task, judged
 from autograder.notebook.apart import Script
@@ -55,7 +55,7 @@ def build() -> str:
 class Job:
     """What the submissions of an assignment share, as it crosses; no secret, no path of the course, no student."""
 
-    name: str
+    name: str  # no other job's, whoever uses the cluster: graders in containers have the same folder and process id
     build: str
     rules: Rules
     masters: Mapping[str, Master] = field(repr=False)
@@ -72,7 +72,6 @@ class Job:
     @classmethod
     def of(cls, course: Course, assignment: str, plan: Plan, posed: Mapping[str, Exercise]) -> Job:
         """The job of a course's assignment."""
-        words = f"{course.folder}\0{assignment}\0{os.getpid()}"
         folders = {name: _folder(course, name) for name in posed}
         sources = {
             f"{folder.name}/{path.relative_to(folder).as_posix()}": path.read_bytes()
@@ -80,7 +79,7 @@ class Job:
             for path in _sources(folder)
         }
         return cls(
-            f"directrix-{hashlib.sha256(words.encode()).hexdigest()[:16]}", build(), plan.rules, plan.masters,
+            f"directrix-{secrets.token_hex(8)}", build(), plan.rules, plan.masters,
             plan.instructor_files, plan.scripts, {name: folder.name for name, folder in folders.items()}, sources,
             course.packages, plan.open_session.level, course.timeout, course.withhold, course.given(assignment, plan.masters),
         )  # fmt: skip
@@ -109,7 +108,7 @@ class Grading(distributed.WorkerPlugin):  # type: ignore[misc]
 
     def setup(self, worker: Any) -> None:
         """Start the sandbox. What it raises is told to the grader, and a worker that joins later is turned away."""
-        refuse([worker.address])
+        refuse([worker.address, *listening(worker)])
         if build() != self.job.build:
             raise CourseError(
                 f"the worker {worker.address} has another directrix, Python or numpy than the grader; marks must not depend on "
