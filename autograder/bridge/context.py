@@ -81,20 +81,24 @@ class Context:
         )
 
     def drop_links(self) -> list[str]:
-        """Remove from ``autograded/`` what nbgrader copied there through a link; the names of those files."""
-        dropped = []
-        for path in sorted(self.autograded.rglob("*")) if self.autograded.is_dir() else ():
-            name = path.relative_to(self.autograded)
-            if (self.submitted / name).is_symlink() and not path.is_dir():
-                path.unlink()
-                dropped.append(str(name))
+        """Remove from ``autograded/`` what nbgrader copied there through a link; the names of those files.
+
+        Where the instructor has a file of that name, nbgrader has put it in the place of the copy already.
+        """
+        places = sorted(self.autograded.rglob("*")) if self.autograded.is_dir() else []
+        names = [path.relative_to(self.autograded).as_posix() for path in places if not path.is_dir()]
+        linked = [name for name in names if (self.submitted / name).is_symlink()]
+        instructors = self.course.instructor_files(self.assignment) if linked else {}
+        dropped = [name for name in linked if name not in instructors]
+        for name in dropped:
+            (self.autograded / name).unlink()
         return dropped
 
     def run(self, built: Rebuilt) -> Ran:
         """Run a rebuilt notebook in the sandbox of this grading run."""
         secret, submission = self.course.secret(), digest(self.data())
         exercises = self.exercises()
-        open_session = _sandbox(self.converter, self.course, exercises)
+        open_session = self._sandbox(exercises)
         files = self._files()
 
         def seed(exercise: str) -> bytes:
@@ -111,6 +115,24 @@ class Context:
             uses_check=self.master.uses_check,
             apart=apart,
         )
+
+    def _sandbox(self, exercises: Mapping[str, Exercise]) -> Opener:
+        """One for each of nbgrader's runs, started with its first notebook and closed with its converter; if lost, another."""
+        if self.lost:
+            stack = contextlib.ExitStack()
+            course = self.course
+            opening = opened(
+                exercises.values(), course.packages, course.level, course.timeout, course.withhold,
+                given=course.given(self.assignment, self.row.notebooks),
+            )  # fmt: skip
+            _sandboxes[self.converter] = stack.enter_context(opening)
+            weakref.finalize(self.converter, stack.close)
+        return _sandboxes[self.converter]
+
+    @property
+    def lost(self) -> bool:
+        """Whether no sandbox runs, or none any more: somebody ended it, or the machine was short of memory."""
+        return self.converter not in _sandboxes or not _sandboxes[self.converter].box.alive
 
     def other_id(self, built: Rebuilt) -> str | None:
         """A sentence where the notebook draws its numbers for somebody else."""
@@ -140,14 +162,4 @@ class Context:
             path.write_bytes(data)
 
 
-_sandboxes: weakref.WeakKeyDictionary[Any, Opener] = weakref.WeakKeyDictionary()
-
-
-def _sandbox(converter: Any, course: Course, exercises: Mapping[str, Exercise]) -> Opener:
-    """One sandbox for each of nbgrader's runs, started with its first notebook and closed with its converter."""
-    if converter not in _sandboxes:
-        stack = contextlib.ExitStack()
-        opening = opened(exercises.values(), course.packages, course.level, course.timeout, course.withhold)
-        _sandboxes[converter] = stack.enter_context(opening)
-        weakref.finalize(converter, stack.close)
-    return _sandboxes[converter]
+_sandboxes: weakref.WeakKeyDictionary[Any, Opener] = weakref.WeakKeyDictionary()  # by converter

@@ -54,6 +54,9 @@ class Execute(NbGraderExecute):  # type: ignore[misc]
         context = Context.of(self, resources)
         built = context.rebuilt()
         ran = context.run(built)
+        if ran.faults and context.lost:  # the sandbox itself, which is nothing of this submission: once more in another
+            built = context.rebuilt()
+            ran = context.run(built)
         context.keep(ran.files)
         for fault in ran.faults:
             self.log.error("%s: %s.ipynb: %s", context.student, context.notebook, fault)

@@ -1,7 +1,8 @@
 """How nbgrader's Autograde comes to the files that were handed in: never through what would hold or fill the machine.
 
 nbgrader opens whatever is called ``*.ipynb`` and copies whatever lies beside it, following links: a FIFO holds the whole class
-for ever, a link to ``/dev/zero`` is copied until the disk is full, and a folder whose name has a line break ends the run.
+for ever, a link to ``/dev/zero`` or ``/proc/self/pagemap`` is copied until the disk is full, and a folder whose name has a line
+break ends the run.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ import nbformat
 from nbconvert.exporters import NotebookExporter
 
 from autograder.notebook.submission import NO_ID, PLAIN_ID, Bounds, parse, read_file
+from autograder.notebook.timestamps import FILE
+
+TIMESTAMP = 1000  # bytes of the file that says when it was handed in
 
 
 class Submitted(NotebookExporter):
@@ -40,8 +44,8 @@ class Submitted(NotebookExporter):
         above = Path(folder).parent
         if os.path.islink(folder) or (above.name == student["student_id"] and above.is_symlink()):
             return "it is a link"
-        endless = _endless(Path(folder))
-        return f"{endless} lead to no file, and copying them might never end" if endless else ""
+        endless = _endless(Path(folder), 1000 * converter.coursedir.max_file_size)
+        return f"{endless} lead to no file, or to one too large, and copying them might never end" if endless else ""
 
     def from_filename(self, filename: str, resources: Any = None, **options: Any) -> tuple[Any, Any]:
         """Read a notebook; raises SubmissionError, which nbgrader names with the student, if we could not read it."""
@@ -63,15 +67,22 @@ class Submitted(NotebookExporter):
         return bool(getattr(self.parent, "_sanitizing", True))
 
 
-def _endless(folder: Path) -> list[str]:
-    """Names of devices, FIFOs and sockets, and of links to them, that are no notebooks."""
+def _endless(folder: Path, largest: float) -> list[str]:
+    """Names of devices, FIFOs and sockets, of what is too large, and of links to such, that are no notebooks.
+
+    A file of the kernel's (``/proc/self/pagemap``) says that it is empty and gives hundreds of gigabytes: a link to an empty
+    file is one of them. ``timestamp.txt`` is read whole before anything is copied.
+    """
     found = []
     for place, _, names in os.walk(folder):
         for name in names:
+            path = os.path.join(place, name)
             try:
-                mode = os.stat(os.path.join(place, name)).st_mode
+                about = os.stat(path)
             except OSError:  # a link to nowhere: copying fails at once
                 continue
-            if not stat.S_ISREG(mode) and not name.endswith(".ipynb"):
+            most = TIMESTAMP if path == str(folder / FILE) else largest
+            regular = stat.S_ISREG(about.st_mode) and about.st_size <= most and (about.st_size or not os.path.islink(path))
+            if not regular and not name.endswith(".ipynb"):
                 found.append(name)
     return sorted(found)

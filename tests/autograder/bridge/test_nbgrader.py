@@ -68,6 +68,7 @@ def both(ordinary_template, classroom, tmp_path_factory, bridge_line):
     ordinary.hand_in("zig", {"one": "{broken", "two": ADD})
     place = ordinary.hand_in("link", {"one": RIGHT, "two": ADD})
     (place / "book.txt").symlink_to(ordinary.folder / "gradebook.db")
+    (place / "data.txt").symlink_to(ordinary.folder / "gradebook.db")  # the instructor has a file of that name
     secret = ordinary.course().secret()
     theirs = ordinary.copy(folder / "theirs")
     assert theirs.course().secret() == secret
@@ -90,6 +91,7 @@ def test_the_one_line_gives_the_same_marks_and_the_same_files(both):
     mine = {name: data for name, data in ours.autograded().items() if not name.startswith("zig")}
     assert mine == theirs.autograded()
     assert "link/ps1/book.txt" not in mine
+    assert mine["link/ps1/data.txt"] == b"of the instructor\n"
 
 
 def test_feedback_is_the_same_page_and_tells_no_secrets(both):
@@ -130,6 +132,10 @@ def test_what_would_hold_the_class_or_fill_the_disk_is_named_and_the_others_are_
     ordinary.configure(bridge_line)
     os.mkfifo(ordinary.hand_in("fifo", {"two": ADD}) / "one.ipynb")
     (ordinary.hand_in("zero", {"one": RIGHT, "two": ADD}) / "data.bin").symlink_to("/dev/zero")
+    # as every file of the kernel's, pagemap too, which has hundreds of gigabytes, it says that it is empty
+    (ordinary.hand_in("proc", {"one": RIGHT, "two": ADD}) / "data.bin").symlink_to("/proc/self/status")
+    os.truncate(ordinary.hand_in("large", {"one": RIGHT, "two": ADD}, files={"data.bin": b""}) / "data.bin", 100_000_001)
+    ordinary.hand_in("long", {"one": RIGHT, "two": ADD}, timestamp="2027-02-01 11:00:00 UTC".ljust(1001))
     os.mkfifo(ordinary.hand_in("when", {"one": RIGHT, "two": ADD}) / "timestamp.txt")
     (ordinary.hand_in("linked", {"two": ADD}) / "one.ipynb").symlink_to(ordinary.folder / "source/ps1/one.ipynb")
     ordinary.hand_in("whole", {})
@@ -139,7 +145,7 @@ def test_what_would_hold_the_class_or_fill_the_disk_is_named_and_the_others_are_
         ordinary.hand_in(name, {"one": RIGHT, "two": ADD})
     done = nbgrader(ordinary.folder, "autograde", "ps1")
     assert done.returncode == 1
-    for student in ("fifo", "zero", "when", "linked", "whole", "new\\nline", "a<b>"):
+    for student in ("fifo", "zero", "proc", "large", "long", "when", "linked", "whole", "new\\nline", "a<b>"):
         assert f"{student}/ps1" in done.stderr or f"'{student}'" in done.stderr
         assert not (ordinary.folder / "autograded" / student / "ps1").exists()
     marked = dict(ordinary.sql(MARKED))
