@@ -6,12 +6,9 @@ import linecache
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from autograder.sandbox.guest.words import say
-
-if TYPE_CHECKING:
-    from autograder.sandbox.guest.shell import Shell
 
 MESSAGE = 2000  # characters kept of an error's message
 
@@ -39,10 +36,11 @@ def find(namespace: dict[str, Any], name: str) -> Callable[..., Any]:
 
 
 @contextmanager
-def failures(shell: Shell) -> Iterator[list[Any]]:
+def failures(is_cell: Callable[[str], bool]) -> Iterator[list[Any]]:
     """Catches whatever goes wrong inside and fills the list with (False, kind, message, exception, bases, line, source).
 
-    Used as ``with failures(shell) as failure: ...``; ``tuple(failure)`` is the answer then.
+    Used as ``with failures(shell.is_cell) as failure: ...``; ``tuple(failure)`` is the answer then. ``is_cell`` says of a file
+    name whether that code came from a cell.
     """
     failure: list[Any] = []
     try:
@@ -51,11 +49,11 @@ def failures(shell: Shell) -> Iterator[list[Any]]:
         kind = "missing" if isinstance(error, Missing) else "refused"
         failure += [False, kind, str(error)[:MESSAGE], "", (), None, ""]
     except TimeLimitExceeded as error:
-        failure += [False, "timeout", str(error), "", (), *_place(error, shell)]
+        failure += [False, "timeout", str(error), "", (), *_place(error, is_cell)]
     except MemoryError as error:
-        failure += [False, "memory", "", "MemoryError", ("MemoryError",), *_place(error, shell)]
+        failure += [False, "memory", "", "MemoryError", ("MemoryError",), *_place(error, is_cell)]
     except BaseException as error:
-        failure += [False, "error", _message(error), type(error).__name__, _bases(error), *_place(error, shell)]
+        failure += [False, "error", _message(error), type(error).__name__, _bases(error), *_place(error, is_cell)]
 
 
 def _message(error: BaseException) -> str:
@@ -69,11 +67,11 @@ def _bases(error: BaseException) -> tuple[str, ...]:
     return tuple(base.__name__[:100] for base in type(error).__mro__[:20])
 
 
-def _place(error: BaseException, shell: Shell) -> tuple[int | None, str]:
+def _place(error: BaseException, is_cell: Callable[[str], bool]) -> tuple[int | None, str]:
     """Line and text of the innermost place in the learner's own cells."""
     place: tuple[int | None, str] = (None, "")
     for frame, line in traceback.walk_tb(error.__traceback__):
         name = frame.f_code.co_filename
-        if shell.is_cell(name):
+        if is_cell(name):
             place = line, linecache.getline(name, line).strip()[:500]
     return place

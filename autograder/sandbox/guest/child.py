@@ -145,7 +145,7 @@ class Server:
         self.calls += 1
         _reseed(self.seed, self.calls)
         body = b""
-        with self.shell.silence(), answers.failures(self.shell) as failure:
+        with self.shell.silence(), answers.failures(self.shell.is_cell) as failure:
             function = answers.find(self.shell.user_ns, name)
             with timed:
                 value = function(*arguments)

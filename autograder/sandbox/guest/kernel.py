@@ -20,7 +20,7 @@ from nbclient.exceptions import DeadKernelError
 
 from autograder.sandbox import system, wire
 from autograder.sandbox.guest import child, confine, seccomp, words
-from autograder.sandbox.guest.shell import _bundle, _sizes, many, more
+from autograder.sandbox.guest.recorder import bundled, many, more, sizes_of
 
 PATH = "/python/bin:/usr/bin:/bin"
 SHOWS = ("stream", "display_data", "execute_result", "update_display_data", "error")
@@ -125,5 +125,5 @@ def _plain(outputs: list[Any]) -> tuple[Any, ...]:
         elif kind == "error":
             found.append((kind, output.ename, output.evalue, tuple(output.traceback)))
         else:
-            found.append((kind, tuple(_bundle(output.data)), _sizes(output.metadata), ""))
+            found.append((kind, tuple(bundled(output.data)), sizes_of(output.metadata), ""))
     return tuple(found)

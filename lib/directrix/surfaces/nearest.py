@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from directrix.checks import Array, Indices
-from directrix.differential import dot
-
-if TYPE_CHECKING:
-    from directrix.surfaces.surface import Surface
+from directrix.differential import Jet, dot
 
 LEAST = 33  # samples each way of the look everywhere
 STARTS = 6  # places from which Newton's method sets out, for each point
@@ -32,18 +29,19 @@ class Nearest(NamedTuple):
     distance: Array
 
 
-def nearest(surface: Surface, points: Array) -> Nearest:
+def nearest(jet: Jet, breaks: tuple[Array, Array], points: Array) -> Nearest:
     """For each of n points (n, 3) the (u, w) of the nearest point of the surface.
+
+    ``jet(u, w, orders)`` gives the surface's derivatives, of order (0, 0) its points; between its breaks it is smooth.
 
     The surface is sampled at no less than 33 x 33 parameters, six at least between neighbouring breaks, more where it runs
     fast; from up to six local minima of the distance on that grid a damped Newton iteration (Piegl & Tiller, The NURBS Book,
     2nd ed., section 6.1) goes down inside the closed square, and along a crease where it meets one; the best end is kept. A dip
     of the distance narrower than the samples can be missed.
     """
-    us, ws = (_samples(breaks) for breaks in surface.breaks())
-    us, ws, grid = _sampled(surface, us, ws)
+    us, ws, grid = _sampled(jet, *map(_samples, breaks))
     chunk = max(1, BATCH // (len(us) * len(ws)))
-    parts = [_nearest(surface, points[i : i + chunk], us, ws, grid) for i in range(0, len(points), chunk)]
+    parts = [_nearest(jet, breaks, points[i : i + chunk], us, ws, grid) for i in range(0, len(points), chunk)]
     if not parts:
         return Nearest(*np.empty((3, 0)))
     return Nearest(*(np.concatenate(part) for part in zip(*parts, strict=True)))
@@ -55,18 +53,22 @@ def _samples(breaks: Array) -> Array:
     return np.concatenate([a + (b - a) * middles for a, b in pairwise(breaks)])
 
 
-def _sampled(surface: Surface, us: Array, ws: Array) -> tuple[Array, Array, Array]:
+def _points(jet: Jet, u: Array, w: Array) -> Array:
+    return jet(u, w, [(0, 0)])[0]
+
+
+def _sampled(jet: Jet, us: Array, ws: Array) -> tuple[Array, Array, Array]:
     """The samples, more of them where a step from one to the next is long (unequal weights), and the surface there."""
     axes = [np.concatenate([[0.0], samples, [1.0]]) for samples in (us, ws)]
     for _ in range(REFINED):
-        grid = surface(axes[0][:, None], axes[1][None, :])
+        grid = _points(jet, axes[0][:, None], axes[1][None, :])
         steps = [np.linalg.norm(np.diff(grid, axis=axis), axis=-1).max(axis=1 - axis) for axis in (0, 1)]
         finer = [_divided(samples, step) for samples, step in zip(axes, steps, strict=True)]
         if all(len(old) == len(new) for old, new in zip(axes, finer, strict=True)):
             break
         axes = finer
     us, ws = (samples[1:-1] for samples in axes)
-    return us, ws, surface(us[:, None], ws[None, :])
+    return us, ws, _points(jet, us[:, None], ws[None, :])
 
 
 def _divided(samples: Array, steps: Array) -> Array:
@@ -76,14 +78,16 @@ def _divided(samples: Array, steps: Array) -> Array:
     return np.concatenate([*made, samples[-1:]])
 
 
-def _nearest(surface: Surface, points: Array, us: Array, ws: Array, grid: Array) -> tuple[Array, Array, Array]:
+def _nearest(
+    jet: Jet, breaks: tuple[Array, Array], points: Array, us: Array, ws: Array, grid: Array
+) -> tuple[Array, Array, Array]:
     far = sum((points[:, None, None, i] - grid[..., i]) ** 2 for i in range(3))
     starts = _local_minima(np.asarray(far))
     i, j = np.unravel_index(starts, grid.shape[:2])
     target = np.repeat(points, STARTS, axis=0)
-    u, w = _descend(surface, target, us[i].ravel(), ws[j].ravel())
-    u, w = _along_creases(surface, target, u, w)
-    square = dot(*(2 * [surface(u, w) - target])).reshape(-1, STARTS)
+    u, w = _descend(jet, target, us[i].ravel(), ws[j].ravel())
+    u, w = _along_creases(jet, breaks, target, u, w)
+    square = dot(*(2 * [_points(jet, u, w) - target])).reshape(-1, STARTS)
     best = np.argmin(square, axis=1)
     rows = np.arange(len(points))
     u, w = u.reshape(-1, STARTS)[rows, best], w.reshape(-1, STARTS)[rows, best]
@@ -101,10 +105,10 @@ def _local_minima(far: Array) -> Indices:
     return np.where(np.isfinite(ranked[rows, some]), some, best)
 
 
-def _along_creases(surface: Surface, target: Array, u: Array, w: Array) -> tuple[Array, Array]:
+def _along_creases(jet: Jet, breaks: tuple[Array, Array], target: Array, u: Array, w: Array) -> tuple[Array, Array]:
     """Searches that may have stopped at a crease go on along it, one parameter held on the break, and then off it again."""
-    for axis, breaks in enumerate(surface.breaks()):
-        inner, here = breaks[1:-1], (u, w)[axis]
+    for axis, inner in enumerate(values[1:-1] for values in breaks):
+        here = (u, w)[axis]
         if not len(inner):
             continue
         crease = inner[np.abs(here[:, None] - inner).argmin(axis=1)]
@@ -112,17 +116,17 @@ def _along_creases(surface: Surface, target: Array, u: Array, w: Array) -> tuple
         if not len(met):
             continue
         goal, start = target[met], [u[met], w[met]]
-        before = surface(*start) - goal
+        before = _points(jet, *start) - goal
         start[axis] = crease[met]
-        along = _descend(surface, goal, start[0], start[1], (axis == 0, axis == 1))
-        end_u, end_w = _descend(surface, goal, *along)
-        after = surface(end_u, end_w) - goal
+        along = _descend(jet, goal, start[0], start[1], (axis == 0, axis == 1))
+        end_u, end_w = _descend(jet, goal, *along)
+        after = _points(jet, end_u, end_w) - goal
         better = dot(after, after) < dot(before, before)
         u[met[better]], w[met[better]] = end_u[better], end_w[better]
     return u, w
 
 
-def _descend(surface: Surface, target: Array, u: Array, w: Array, held: Sequence[bool] = (False, False)) -> tuple[Array, Array]:
+def _descend(jet: Jet, target: Array, u: Array, w: Array, held: Sequence[bool] = (False, False)) -> tuple[Array, Array]:
     """Newton's method on half the squared distance, damped where it would not go down, inside the square.
 
     ``held``: whether u and whether w stays where it is.
@@ -130,14 +134,14 @@ def _descend(surface: Surface, target: Array, u: Array, w: Array, held: Sequence
     u, w = u.copy(), w.copy()
     damping = np.full(len(u), 1e-8)
     active = np.arange(len(u))
-    orders = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))
+    orders = [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]
     for _ in range(ROUNDS):
-        here, su, sw, suu, suw, sww = surface._jet_at(u[active], w[active], list(orders))
+        here, su, sw, suu, suw, sww = jet(u[active], w[active], orders)
         away = here - target[active]
         step = _step(away, su, sw, (suu, suw, sww), u[active], w[active], damping[active], held)
         short = [np.clip(part, -STRIDE, STRIDE) for part in step]
         new_u, new_w = (np.clip(old[active] + part, 0.0, 1.0) for old, part in zip((u, w), short, strict=True))
-        after = surface(new_u, new_w) - target[active]
+        after = _points(jet, new_u, new_w) - target[active]
         better = dot(after, after) <= dot(away, away)
         moved = np.maximum(np.abs(new_u - u[active]), np.abs(new_w - w[active]))
         u[active] = np.where(better, new_u, u[active])

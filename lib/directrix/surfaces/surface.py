@@ -227,7 +227,7 @@ class Surface(Frozen):
         given = checks.array("points", points)
         if given.ndim == 0 or given.shape[-1] != 3:
             raise ShapeError(f"points must have shape (..., 3); got {given.shape}.", got=given.shape)
-        found = nearest(self, given.reshape(-1, 3))
+        found = nearest(self._jet_at, self.breaks(), given.reshape(-1, 3))
         return Nearest(*(part.reshape(given.shape[:-1]) for part in found))
 
     # Moving and cutting

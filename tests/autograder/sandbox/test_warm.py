@@ -180,8 +180,8 @@ def test_figures_are_shown_at_once_as_plotly_shows_them(template):
         counted = notebook.run_cell(
             "from autograder.sandbox.guest.figures import MIME\n"
             "shower = get_ipython().display_formatter.ipython_display_formatter.lookup_by_type(go.Figure).__self__\n"
-            "from autograder.sandbox.guest.shell import _bundle\n"
-            "stock = [dict(_bundle(pio.renderers._build_mime_bundle(one.to_dict(), 'plotly_mimetype'))) for one in figures]\n"
+            "from autograder.sandbox.guest.recorder import bundled\n"
+            "stock = [dict(bundled(pio.renderers._build_mime_bundle(one.to_dict(), 'plotly_mimetype'))) for one in figures]\n"
             "def text(one):\n    try:\n        return shower.text(one)\n    except Exception:\n        return None\n"
             "print([text(one) == by_plotly[MIME] for one, by_plotly in zip(figures, stock)])"
         )
