@@ -9,7 +9,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -35,7 +35,7 @@ def digests(folder):
 
 def marks(course):
     """Every mark in the gradebook, read with nothing but SQL."""
-    with sqlite3.connect(f"file:{course / 'gradebook.db'}?mode=ro", uri=True) as book:
+    with closing(sqlite3.connect(f"file:{course / 'gradebook.db'}?mode=ro", uri=True)) as book, book:
         return book.execute(MARKS).fetchall()
 
 
@@ -177,7 +177,7 @@ def test_nbgrader_autograde_with_the_one_line_gives_the_same_marks(course, tmp_p
     folder, _ = course
     copy = tmp_path / "course"
     shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("autograded", "feedback"), symlinks=True)
-    with sqlite3.connect(copy / "gradebook.db") as book:
+    with closing(sqlite3.connect(copy / "gradebook.db")) as book, book:
         for table in ("grade", "comment", "submitted_notebook", "submitted_assignment", "student"):
             book.execute(f"DELETE FROM {table}")
     run(sys.executable, "-m", "nbgrader", "autograde", NAME, cwd=copy, code=1)  # 1: the truncated notebook is named

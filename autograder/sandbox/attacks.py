@@ -343,7 +343,8 @@ def clone3(facts: str) -> bool:
 
 def io_uring(facts: str) -> bool:
     """Use io_uring, which goes past system call filters."""
-    return _syscall(425, 425, 1, ctypes.addressof(ctypes.create_string_buffer(120)))
+    settings = ctypes.create_string_buffer(120)
+    return _syscall(425, 425, 1, ctypes.addressof(settings))
 
 
 def userfault(facts: str) -> bool:

@@ -9,6 +9,7 @@ import os
 import shutil
 import sqlite3
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -189,7 +190,7 @@ class Classroom:
         path.write_text(path.read_text() + more)
 
     def sql(self, statement, *values):
-        with sqlite3.connect(self.folder / "gradebook.db") as connection:
+        with closing(sqlite3.connect(self.folder / "gradebook.db")) as connection, connection:
             return connection.execute(statement, values).fetchall()
 
     def tables(self):

@@ -4,9 +4,6 @@ from importlib import import_module
 
 import directrix as dx
 import numpy as np
-import pytest
-
-pytest.importorskip("OCP", reason="OpenCASCADE is not installed: uv sync --group oracles")
 
 
 class Modules:

@@ -11,6 +11,7 @@ import contextlib
 import gc
 import importlib
 import json
+import linecache
 import os
 import select
 import shutil
@@ -34,6 +35,7 @@ SHOWING = ("psutil", "autograder")  # plotly asks the one how it was started; th
 
 def main(arguments: str) -> None:
     """Prepare, say that it is ready, then clone a child for each request. ``arguments`` is JSON from the launcher."""
+    linecache.cache.pop("<string>", None)  # our own command line, which Python 3.13 would show as a line of what exec() runs
     gc.disable()  # until all is loaded: nearly nothing of it is garbage, and what little there is may stay
     settings = json.loads(arguments)
     if sys.version != settings["version"]:

@@ -155,9 +155,9 @@ def remove_knot(form: Any, u: float | None = None, w: float | None = None, times
 
     Examples
     --------
-    >>> arch = BezierCurve([(0, 0, 0), (2, 4, 0), (4, 0, 0)])
+    >>> arch = BezierCurve([(1, 1, 1), (2, 4, 1), (4, 1, 1)])
     >>> remove_knot(insert_knot(arch, 0.5), 0.5).control_points.round(12).tolist()
-    [[0.0, 0.0, 0.0], [2.0, 4.0, 0.0], [4.0, 0.0, 0.0]]
+    [[1.0, 1.0, 1.0], [2.0, 4.0, 1.0], [4.0, 1.0, 1.0]]
     """
     spline = spline_of(form)
     times = checks.whole("times", times, least=1)

@@ -8,6 +8,7 @@ import sqlite3
 import subprocess
 import sys
 import threading
+from contextlib import closing
 from socketserver import BaseRequestHandler, TCPServer
 
 import numpy as np
@@ -59,7 +60,7 @@ def test_writing_the_gradebook_changes_marks(free, tmp_path):
     """On a gradebook with nbgrader's own tables, as far as they matter here."""
     book = tmp_path / "course" / "gradebook.db"
     book.parent.mkdir(exist_ok=True)
-    with sqlite3.connect(book) as db:
+    with closing(sqlite3.connect(book)) as db, db:
         db.executescript("""
             CREATE TABLE grade (id TEXT, notebook_id TEXT, auto_score REAL, manual_score REAL, needs_manual_grade BOOLEAN);
             CREATE TABLE submitted_notebook (id TEXT, assignment_id TEXT);
@@ -70,7 +71,7 @@ def test_writing_the_gradebook_changes_marks(free, tmp_path):
             INSERT INTO grade VALUES ('g1', 'n1', 0, NULL, 0), ('g2', 'n2', 6, NULL, 0), ('g3', 'n3', 6, NULL, 0);
         """)
     free("write-gradebook", "print(0)")
-    with sqlite3.connect(book) as db:
+    with closing(sqlite3.connect(book)) as db, db:
         assert db.execute("SELECT manual_score FROM grade ORDER BY id").fetchall() == [(1000.0,), (0.0,), (None,)]
     assert list(tmp_path.rglob("written-by-a-learner"))
 

@@ -6,6 +6,7 @@ import json
 import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 
 import pytest
 
@@ -55,7 +56,7 @@ def test_the_command_writes_what_the_gradebook_says(ordinary):
     """Marks of the grader and by hand, a penalty, an open cell, hostile names; JSON, table and CSV agree."""
     ordinary.hand_in("ada", {"one": {"square": "def square(x):\n    return x * x"}, "two": {}})
     fleet.grade(ordinary.course(), "ps1")
-    with sqlite3.connect(ordinary.folder / "gradebook.db") as book:
+    with closing(sqlite3.connect(ordinary.folder / "gradebook.db")) as book, book:
         book.execute("update student set first_name = '=cmd|x', last_name = '\x1b[31m[bold]A[/bold]' where id = 'ada'")
         book.execute("update submitted_notebook set late_submission_penalty = 0.25")
         book.execute(

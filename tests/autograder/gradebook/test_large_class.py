@@ -7,6 +7,7 @@ import json
 import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 
 import pytest
 
@@ -31,7 +32,7 @@ def large(ordinary):
             for number in range(len(STUDENTS))
         ]
         book.write(row, [Record(student, None, marks) for student, marks in zip(STUDENTS, some, strict=True)])
-    with sqlite3.connect(ordinary.folder / "gradebook.db") as connection:
+    with closing(sqlite3.connect(ordinary.folder / "gradebook.db")) as connection, connection:
         connection.execute("update student set first_name = 'Ada', last_name = id where id > 's100'")
         connection.execute("update submitted_notebook set late_submission_penalty = 0.25 where rowid % 3 = 0")
         connection.execute("update grade set manual_score = 1.5 where rowid % 7 = 0")

@@ -40,18 +40,23 @@ def joined(outputs):
     return made
 
 
+COLOURS = re.compile(r"\x1b\[[0-9;]*m")
+
+
 def simplified(outputs, lines=True):
     """Outputs without addresses, times, paths and colours; with ``lines`` false also without the lines around an error."""
     found = []
     for output in joined(outputs):
         if output["output_type"] == "error":
-            shown = re.sub(r"\x1b\[[0-9;]*m", "", "\n".join(output["traceback"])).splitlines()
+            shown = COLOURS.sub("", "\n".join(output["traceback"])).splitlines()
             if not lines:
                 shown = [re.sub(r", line \d+", "", line) for line in shown if not re.match(r"(-+>|\s)*\d+( |$)", line)]
                 shown = [line for line in shown if not line.startswith("Cell In")] + sorted(
                     {line for line in shown if line.startswith("Cell In")}
                 )
             output["traceback"] = shown
+        elif output.get("name") == "stderr":  # since Python 3.13 a thread's traceback is coloured in a kernel
+            output["text"] = COLOURS.sub("", output["text"])
         output["metadata"] = {kind: about for kind, about in output.get("metadata", {}).items() if kind.startswith("image/")}
         found.append(masked(repr(sorted(output.items()))))
     return found

@@ -154,7 +154,7 @@ def in_namespace(name):
 
 def test_a_fork_bomb_is_bounded_and_nothing_outlives_the_notebook(ran):
     cells, _ = ran
-    assert texts(cells["fork bomb"]).startswith("(True, ")
+    assert "(True, " in texts(cells["fork bomb"])  # since Python 3.12 after a warning of threads
     theirs = ast.literal_eval(texts(cells["namespace"]))
     assert in_namespace(os.readlink("/proc/self/ns/pid"))
     deadline = time.monotonic() + 10  # the kernel ends what was in it, soon after its first process

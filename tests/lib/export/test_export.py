@@ -1,6 +1,7 @@
 """Files: JSON to the last bit, triangles that close, STEP read back as the NURBS that was written, and refusals."""
 
 import json
+from importlib.util import find_spec
 
 import directrix as dx
 import numpy as np
@@ -12,6 +13,9 @@ RNG = np.random.default_rng(1)
 P, NET, WEIGHTS = RNG.standard_normal((8, 3)), RNG.standard_normal((4, 5, 3)), RNG.uniform(0.3, 3, (4, 5))
 TURN = dx.Transform.rotate((1, 2, 3), 0.7, (1, 0, 1))
 U, W = np.linspace(0, 1, 13)[:, None], np.linspace(0, 1, 11)[None]
+
+
+steps = pytest.mark.skipif(find_spec("OCP") is None, reason="OpenCASCADE is not installed: uv sync --group oracles")
 
 
 def every_form():
@@ -152,7 +156,7 @@ def test_mesh_files_are_read_back(suffix, tmp_path):
     assert read.area == pytest.approx(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, rel=1e-5)
 
 
-@pytest.mark.parametrize("suffix", [".STL", ".Obj", ".GLB", ".glTF", ".PLY", ".JSON", ".STEP"])
+@pytest.mark.parametrize("suffix", [".STL", ".Obj", ".GLB", ".glTF", ".PLY", ".JSON", pytest.param(".STEP", marks=steps)])
 def test_the_file_has_the_name_that_was_asked_for(suffix, tmp_path):
     path = export.write(tmp_path / f"ball{suffix}", dx.Sphere(2), resolution=4)
     assert [file.name for file in tmp_path.iterdir()] == [path.name] == [f"ball{suffix}"]
@@ -175,6 +179,7 @@ def test_an_obj_file_keeps_its_digits_whatever_the_unit(radius, tmp_path):
     assert np.allclose(np.linalg.norm(np.array(lines, dtype=float), axis=1), radius, rtol=1e-9, atol=0)
 
 
+@steps
 @pytest.mark.parametrize(
     "form",
     [
@@ -186,13 +191,13 @@ def test_an_obj_file_keeps_its_digits_whatever_the_unit(radius, tmp_path):
 )  # fmt: skip
 def test_step_there_and_back(form, tmp_path):
     """The file holds the NURBS itself: control points, weights and knots come back to the digits that STEP prints."""
-    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: uv sync --group oracles")
     (back,) = export.read(export.write(tmp_path / "form.step", form))
     written = dx.to_nurbs(form)
     np.testing.assert_allclose(back(U, W), written(U, W), atol=1e-12 * (1 + np.abs(written.control_net).max()))
     assert back.degrees == written.degrees
 
 
+@steps
 @pytest.mark.parametrize(("length", "start"), [(1e-9, 0.0), (1e-12, 0.0), (1e-3, 1e6)])
 def test_step_of_knots_on_a_short_domain(length, start, tmp_path):
     """OpenCASCADE takes parameters within 1e-9 for one and would write no face, or another, without a word."""
@@ -202,6 +207,7 @@ def test_step_of_knots_on_a_short_domain(length, start, tmp_path):
     assert np.allclose(back(U, W), form(U, W), atol=1e-5)
 
 
+@steps
 def test_step_says_what_it_cannot_hold(tmp_path):
     """A face smaller than OpenCASCADE's resolution was left out of the file; knots an ulp apart ended in its own exception."""
     (back,) = export.read(export.write(tmp_path / "small.step", dx.BezierPatch(1e-5 * NET)))
@@ -213,9 +219,9 @@ def test_step_says_what_it_cannot_hold(tmp_path):
         export.write(tmp_path / "near.step", near)
 
 
+@steps
 def test_step_of_a_torn_patch_and_a_solid(tmp_path):
     """A tear becomes two faces, a solid six."""
-    pytest.importorskip("OCP", reason="OpenCASCADE is not installed: uv sync --group oracles")
     net = np.array([[(x, y, x) for y in (0, 1)] for x in (0, 1, 5, 6)], dtype=float)
     torn = dx.BSplinePatch(net, 2, 2, [0, 0, 1, 1, 2, 2])
     left, right = export.read(export.write(tmp_path / "torn.stp", torn))
@@ -223,8 +229,8 @@ def test_step_of_a_torn_patch_and_a_solid(tmp_path):
     np.testing.assert_allclose(right(0, 0.5), (5, 0.5, 5), atol=1e-14)
     cube = dx.BezierHyperpatch(np.indices((2, 2, 2)).transpose(1, 2, 3, 0))
     assert len(export.read(export.write(tmp_path / "cube.step", cube))) == 6
-    steps = dx.BSplinePatch(net, 1, 2)
-    assert len(export.read(export.write(tmp_path / "steps.step", steps))) == 4
+    stairs = dx.BSplinePatch(net, 1, 2)
+    assert len(export.read(export.write(tmp_path / "stairs.step", stairs))) == 4
 
 
 @pytest.mark.parametrize(

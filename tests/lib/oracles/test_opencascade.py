@@ -6,6 +6,8 @@ import directrix as dx
 import numpy as np
 import pytest
 
+pytest.importorskip("OCP", reason="OpenCASCADE is not installed: uv sync --group oracles")
+
 from tests.lib.opencascade import along, array1, curve, direction, knots, occ, over, point, surface, vector, xyz
 
 T = np.linspace(0, 1, 9)
