@@ -176,7 +176,7 @@ def as_curve(curve: Callable[[NDArray[np.float64]], Any], *, tolerance: float = 
     """Fit a vectorised callable t -> (..., dimension) on [0, 1] to rounding.
 
     Pieces are halved until their Chebyshev series has died away (J. P. Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed.,
-    sections 2.3 and 2.12). A kink that does not lie on a dyadic fraction cannot be met this way.
+    chapter 2). A kink that does not lie on a dyadic fraction cannot be met this way.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Fingerprints of token streams: winnowing (Schleimer, Wilkerson, Aiken: Winnowing, SIGMOD 2003, section 3).
+"""Fingerprints of token streams: winnowing (Schleimer, Wilkerson, Aiken: Winnowing, SIGMOD 2003).
 
 Every run of K tokens is hashed; of each WINDOW hashes in a row the least is a fingerprint (of equal ones the last). Two streams
 that share K + WINDOW - 1 tokens in a row share a fingerprint, wherever it stands; below K tokens nothing is seen.

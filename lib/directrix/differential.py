@@ -246,7 +246,7 @@ def numeric_derivative(f: Callable[[Array], Any], t: Array, order: int) -> Array
 
     Around each t lies a window [c - d, c + d] inside [0, 1], one-sided at the ends. On it f is interpolated in 17 Chebyshev
     points and the interpolant is differentiated; of five widths d the one is taken for which truncation (the last
-    coefficients) and rounding together are least (Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed., sections 2.3, 2.12).
+    coefficients) and rounding together are least (Boyd, Chebyshev and Fourier Spectral Methods, 2nd ed., chapter 2).
     For a smooth f of size 1 the error is about 1e-12 (order 1), 1e-9 (order 2), 1e-7 (order 3) and 1e-5 (order 4), near the
     ends ten times more; at a kink of f it is a mean of both sides.
 

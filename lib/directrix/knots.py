@@ -1,7 +1,7 @@
 """Knot vectors: open, uniform and periodic ones made, given ones checked, and u in [0, 1] stretched onto their domain.
 
 order k = degree + 1 throughout. m control points and order k need m + k knots; the curve lives on [t_(k-1), t_m], counted
-from 0, which is ``knots[order - 1]`` to ``knots[-order]`` (Piegl & Tiller, The NURBS Book, 2nd ed., sections 2.2 and 12.2).
+from 0, which is ``knots[order - 1]`` to ``knots[-order]`` (Piegl & Tiller, The NURBS Book, 2nd ed., section 2.2).
 
 Given knots may be any non-decreasing sequence. A knot that occurs more than k times leaves functions whose whole support is
 that one point: by the recursion's 0/0 := 0 they are zero everywhere, their control points move nothing, and the other functions

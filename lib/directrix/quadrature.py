@@ -35,7 +35,7 @@ def integrate_square(
     """The integral of f over the unit square.
 
     Each cell is halved across the direction in which its Legendre series dies away more slowly, and compared with its halves
-    (Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed., chapter 6); cells that agree are done. A kink along a line
+    (Davis & Rabinowitz, Methods of Numerical Integration, 2nd ed.); cells that agree are done. A kink along a line
     u = const or w = const is met to the tolerance; along a slanted one the last 20,000 cells are taken as they are, which
     leaves about 1e-9.
 

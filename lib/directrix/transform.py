@@ -43,7 +43,7 @@ class Transform(Frozen):
 
     ``second @ first`` does first what stands on the right. ``transform @ form`` moves a curve, surface or solid;
     ``transform @ points`` moves an array of points of shape (..., 3). Rogers & Adams multiply row vectors from the left:
-    their matrices are the transposes of these (Mathematical Elements for Computer Graphics, 2nd ed., chapter 3).
+    their matrices are the transposes of these (Mathematical Elements for Computer Graphics, 2nd ed.).
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ class Transform(Frozen):
         """The turn about the line through ``point`` along ``direction``, by the right-hand rule.
 
         p -> point + v cos t + (k x v) sin t + (k . v) k (1 - cos t), v = p - point, k the unit direction
-        (Rodrigues; Rogers & Adams, chapter 3, rotation about an arbitrary axis).
+        (Rodrigues; Rogers & Adams, on rotation about an arbitrary axis).
 
         Parameters
         ----------

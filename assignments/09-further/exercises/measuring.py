@@ -249,8 +249,8 @@ def fmill_tangents(P):
 
     At an inner point of a row of points the tangent has the direction from the point before to the point after, and its length is the
     shorter of the two distances, to the point before and to the point after. At both ends of a row there is no such point; there
-    the tangent is (0, 0, 0). pu belongs to the rows along the first index, pw to those along the second. (S. Saxena and B.
-    Sahay, Computer Aided Engineering Design, section 7.4.)
+    the tangent is (0, 0, 0). pu belongs to the rows along the first index, pw to those along the second. (A. Saxena and B.
+    Sahay, Computer Aided Engineering Design, eq. 7.46.)
 
     P : points, an array of shape (m, n, 3) with m, n >= 3, first index along u
 

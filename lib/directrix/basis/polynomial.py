@@ -42,7 +42,7 @@ def bernstein(degree: int, t: Array, derivative: int = 0) -> Array:
     """The Bernstein functions B_i(t) = C(n, i) t^i (1 - t)^(n - i) of degree n (order n + 1), or their derivatives.
 
     B_i' = n (B_{i-1} of degree n - 1  -  B_i of degree n - 1), applied ``derivative`` times
-    (Farin, Curves and Surfaces for CAGD, 5th ed., section 5.3). Finite at t = 0 and 1, since 0^0 = 1.
+    (Farin, Curves and Surfaces for CAGD, 5th ed., "The Derivative of a Bezier Curve"). Finite at t = 0 and 1, since 0^0 = 1.
 
     Examples
     --------
@@ -90,7 +90,7 @@ def hermite(t: Array, derivative: int = 0) -> Array:
 def lagrange(nodes: Array, t: Array, derivative: int = 0) -> Array:
     """The Lagrange polynomials L_i over the nodes, L_i(t_j) = 1 if i = j, else 0, or their derivatives.
 
-    L_i(t) = prod over k != i of (t - t_k) / (t_i - t_k) (Davis, Interpolation and Approximation, section 2.5).
+    L_i(t) = prod over k != i of (t - t_k) / (t_i - t_k) (NIST Digital Library of Mathematical Functions, eq. 3.3.2).
     A product is differentiated factor by factor, (f (t - t_k))^(j) = f^(j) (t - t_k) + j f^(j-1), which keeps all digits that
     interpolation itself keeps: equally spaced nodes lose about one digit for every three beyond ten.
 
@@ -114,7 +114,7 @@ def de_casteljau(points: Array, t: float) -> tuple[Array, Array, Array]:
     """One point of a Bezier curve by repeated halving, the slow honest way, and the control points of both parts.
 
     Each round replaces neighbours by (1 - t) a + t b, until one point is left; first points of the rounds are the control
-    points of the part [0, t], last points those of [t, 1] (Farin, Curves and Surfaces for CAGD, 5th ed., sections 4.2 and 5.4).
+    points of the part [0, t], last points those of [t, 1] (Farin, Curves and Surfaces for CAGD, 5th ed., on subdivision).
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ def to_bspline(form: Form) -> Form:
 
     Every polynomial or piecewise polynomial form has one: all patches but NURBS, and linear, ruled, Coons and translational
     surfaces of polynomial curves. The Coons net is blended at Greville abscissae, which comes of itself when the blending
-    functions are written on the curves' knots (Farin, Curves and Surfaces for CAGD, 5th ed., sections 8.4, 8.5, 22.1).
+    functions are written on the curves' knots (Farin, Curves and Surfaces for CAGD, 5th ed., on Coons patches).
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ def to_bezier(form: Form) -> Form:
     """The Bezier form of a polynomial form of one piece.
 
     From Hermite data: end points stay, inner points are p ± p'/3 and, with a twist, p ± pu/3 ± pw/3 ± puw/9 (Mortenson,
-    Geometric Modeling, 3rd ed., chapter 8). From powers: P_j = Σ C(j, i)/C(n, i) a_i. From points: the system
+    Geometric Modeling, 3rd ed., on Bezier surfaces). From powers: P_j = Σ C(j, i)/C(n, i) a_i. From points: the system
     Σ B_j(t_i) P_j = Q_i is solved.
 
     Parameters
@@ -164,7 +164,7 @@ def to_hermite(form: Form) -> Form:
     """The Hermite form of a polynomial form of one piece, of degree at most 3 in each parameter.
 
     Tangents are 3 (P1 - P0), twists 9 (P00 - P01 - P10 + P11) with the signs of the corner; lower degrees are raised first
-    (Mortenson, Geometric Modeling, 3rd ed., chapter 8).
+    (Mortenson, Geometric Modeling, 3rd ed., on Hermite surfaces).
 
     Parameters
     ----------
@@ -199,8 +199,8 @@ def to_hermite(form: Form) -> Form:
 def to_algebraic(form: Form) -> AlgebraicPatch:
     """The algebraic form of a polynomial patch of one piece: coefficients of ascending powers.
 
-    From Hermite data A = M_F G M_Fᵀ, whose rows and columns descend, reversed (Mortenson, Geometric Modeling, 3rd ed., chapter
-    7); from Bezier points a_i = Σ (-1)^(i-j) C(n, i) C(i, j) P_j.
+    From Hermite data A = M_F G M_Fᵀ, whose rows and columns descend, reversed (Mortenson, Geometric Modeling, 3rd ed., on
+    Hermite surfaces); from Bezier points a_i = Σ (-1)^(i-j) C(n, i) C(i, j) P_j.
 
     Parameters
     ----------

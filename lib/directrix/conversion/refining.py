@@ -34,7 +34,7 @@ def elevate(form: Any, u: int | None = None, w: int | None = None) -> Any:
     """The same Bezier, B-spline or NURBS form with its degree raised.
 
     Bezier points by Q_i = i/n P_(i-1) + (1 - i/n) P_i; splines by blossoms, each inner knot once more so that no continuity is
-    gained that was not there (Farin, Curves and Surfaces for CAGD, 5th ed., sections 6.1 and 8.5).
+    gained that was not there (Farin, Curves and Surfaces for CAGD, 5th ed., "Degree Elevation").
 
     Parameters
     ----------
@@ -209,7 +209,7 @@ def split_bezier(form: Any, u: float | None = None, w: float | None = None) -> A
     """A form cut into Bezier forms: at a parameter, or, if none is given, at all its knots.
 
     With u (or w) a polynomial form of one piece is cut in two by de Casteljau's rule, whose first and last points of each round
-    are the two nets (Farin, Curves and Surfaces for CAGD, 5th ed., section 5.4). Without, a B-spline is cut at its knots;
+    are the two nets (Farin, Curves and Surfaces for CAGD, 5th ed., on subdivision). Without, a B-spline is cut at its knots;
     constant pieces (order 1) become lines that stand still, since two points are the least that a Bezier form has.
 
     Parameters

@@ -140,8 +140,8 @@ def sum_of_products(terms: Sequence[tuple[Strand, Strand]]) -> tuple[Array, Stra
 def elevated(points: Array, times: int = 1) -> Array:
     """Bezier points along axis 0 of the same form with its degree raised ``times`` times.
 
-    Q_i = i/n P_(i-1) + (1 - i/n) P_i, with n the old number of points (Farin, Curves and Surfaces for CAGD, 5th ed., section
-    6.1).
+    Q_i = i/n P_(i-1) + (1 - i/n) P_i, with n the old number of points (Farin, Curves and Surfaces for CAGD, 5th ed., "Degree
+    Elevation").
 
     Examples
     --------

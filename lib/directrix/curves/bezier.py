@@ -17,9 +17,9 @@ from directrix.transform import Transform
 class BezierCurve(Curve):
     """The Bezier curve of n + 1 control points, of degree n (order n + 1): p(u) = sum of B_i(u) P_i.
 
-    B_i(u) = C(n, i) u^i (1 - u)^(n - i) (Farin, Curves and Surfaces for CAGD, 5th ed., section 5.1). It starts at the first and
-    ends at the last point. Derivatives to any order: n (n - 1) ... times the Bezier curve of the differences of the points.
-    Parts and splits are Bezier curves again, by de Casteljau's rule.
+    B_i(u) = C(n, i) u^i (1 - u)^(n - i) (Farin, Curves and Surfaces for CAGD, 5th ed., "The Bernstein Form of
+    a Bezier Curve"). It starts at the first and ends at the last point. Derivatives to any order: n (n - 1) ... times the
+    Bezier curve of the differences of the points. Parts and splits are Bezier curves again, by de Casteljau's rule.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ class Conic(Curve):
 
     It starts at p0 towards p1 and arrives at p2 from p1. weight < 1 gives an ellipse, 1 a parabola, > 1 a hyperbola; with
     |p0 p1| = |p1 p2| and weight = cos of half the turn a circle, whose parameter is not the angle (Piegl & Tiller, The NURBS
-    Book, 2nd ed., section 7.3; Farin, Curves and Surfaces for CAGD, 5th ed., section 12.2). Derivatives to any order.
+    Book, 2nd ed., section 7.3; Farin, Curves and Surfaces for CAGD, 5th ed., on conics). Derivatives to any order.
 
     Parameters
     ----------

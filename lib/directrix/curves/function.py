@@ -20,7 +20,7 @@ class FunctionCurve(Curve):
     f is called with a one-dimensional array of parameters in [0, 1], whatever the shape the curve was asked for. Derivatives
     come from local Chebyshev interpolants, one-sided at the ends: for a smooth f of size 1 the error is about 1e-12 for the
     first and 1e-9 for the second derivative, near the ends ten times more (``directrix.differential.numeric_derivative``;
-    Trefethen, Approximation Theory and Approximation Practice, chapters 5 and 21).
+    Trefethen, Approximation Theory and Approximation Practice, on spectral methods).
 
     Parameters
     ----------

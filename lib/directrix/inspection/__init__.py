@@ -93,7 +93,7 @@ def flatness(points: ArrayLike, method: str = "least squares") -> FormError:
     """Flatness of measured points: the width of the zone between two parallel planes that holds them.
 
     d_i = (x_i - mean) . n with n the singular vector of the least singular value of the centred points; value = max d - min d
-    (the lecture's CMM part; ISO 1101:2017, 17.3). The minimum zone turns the planes until the zone is narrowest.
+    (the lecture's CMM part; ISO 1101:2017, on flatness). The minimum zone turns the planes until the zone is narrowest.
 
     Parameters
     ----------
@@ -121,9 +121,9 @@ def flatness(points: ArrayLike, method: str = "least squares") -> FormError:
 def sphericity(points: ArrayLike, method: str = "least squares") -> FormError:
     """Sphericity (roundness in space): the width of the zone between two concentric spheres that holds the points.
 
-    d_i = |x_i - c| - r. ``least squares`` minimises Σ d²; ``algebraic`` solves the linear system |x|² = 2 c·x + k instead,
-    which agrees to second order in the error; ``minimum zone`` minimises max d - min d (A. B. Forbes, NPL
-    report DITC 140/89).
+    d_i = |x_i - c| - r. ``least squares`` minimises Σ d² (A. B. Forbes, NPL report DITC 140/89); ``algebraic`` solves the
+    linear system |x|² = 2 c·x + k instead, which agrees to second order in the error; ``minimum zone`` minimises
+    max d - min d.
 
     Parameters
     ----------
@@ -159,9 +159,9 @@ def cylindricity(
 ) -> FormError:
     """Cylindricity: the width of the zone between two coaxial cylinders that holds the points.
 
-    ρ_i = |v - (v·k) k|, v = x_i - axis_point; value = max ρ - min ρ (ISO 1101:2017, 17.5). With a datum axis given there is
-    nothing to fit, and the form's radius is the mean of the ρ_i. Otherwise the axis is fitted, starting from the best of 240
-    directions, so that partial arcs are found too.
+    ρ_i = |v - (v·k) k|, v = x_i - axis_point; value = max ρ - min ρ (ISO 1101:2017, on cylindricity). With a datum axis given
+    there is nothing to fit, and the form's radius is the mean of the ρ_i. Otherwise the axis is fitted, starting from the best
+    of 240 directions, so that partial arcs are found too.
 
     Parameters
     ----------
@@ -199,7 +199,7 @@ def conicity(points: ArrayLike, method: str = "least squares") -> FormError:
     """Conicity: the width, across the surface, of the zone between two parallel coaxial cones that holds the points.
 
     d_i = (ρ_i - r0) cos φ - h_i sin φ, with ρ, h the cylindrical coordinates about the axis and φ the half angle (NPL report
-    DITC 140/89, section 9). The half angle is fitted too.
+    DITC 140/89, section 11). The half angle is fitted too.
 
     Parameters
     ----------

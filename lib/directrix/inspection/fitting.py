@@ -4,8 +4,8 @@ Both fits take steps in the form's own frame (`forms.Form`). Least squares is Ga
 orthogonal distances. The minimum zone min (max d - min d) is a sequence of linear programs, each the same problem with d
 replaced by its tangent within a trust region; it ends in a local minimum, from the least-squares form the nearest one. A plane
 sets out from other directions too, where the points are thick enough for a narrower zone there.
-Source: G. T. Anthony et al., Reference software for finding Chebyshev best-fit geometric elements, Precision Engineering 19
-(1996) 28-36; A. B. Forbes, Least-squares best-fit geometric elements, NPL report DITC 140/89 (1989).
+Source: G. T. Anthony et al., Reference software for finding Chebyshev best-fit geometric elements, Precision Engineering 19,
+1996; A. B. Forbes, Least-squares best-fit geometric elements, NPL report DITC 140/89 (1989).
 """
 
 from __future__ import annotations

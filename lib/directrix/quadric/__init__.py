@@ -128,7 +128,7 @@ class Quadric(Frozen):
         """The quadric through nine points in general position; the best one for more.
 
         Minimises Σ F(x_i)² / Σ |∇F(x_i)|², to first order the sum of squared distances, and does not change when the points
-        are moved rigidly or scaled. Source: G. Taubin, IEEE Trans. PAMI 13 (1991) 1115-1138, section VI.
+        are moved rigidly or scaled. Source: G. Taubin, IEEE Trans. PAMI 13 (1991) 1115-1138.
 
         Parameters
         ----------

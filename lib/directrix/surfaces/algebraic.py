@@ -18,7 +18,7 @@ class AlgebraicPatch(TensorPatch):
     """The polynomial patch S(u, w) = Σ_i Σ_j a_ij u^i w^j, of any degrees.
 
     ``a[i, j]`` multiplies u^i w^j: powers ascend. Textbooks print (u³ u² u 1): reverse both axes of their matrix
-    (Mortenson, Geometric Modeling, 3rd ed., chapter 7). Its numbers are derivatives: a_00 = S, a_10 = S_u, a_11 = S_uw at
+    (Mortenson, Geometric Modeling, 3rd ed.). Its numbers are derivatives: a_00 = S, a_10 = S_u, a_11 = S_uw at
     (0, 0). Derivatives to any order. A bicubic patch has 16 coefficients, 48 numbers; cubic by quadratic 36.
 
     Parameters

@@ -16,10 +16,10 @@ from directrix.transform import Transform
 class BezierPatch(TensorPatch):
     """The Bezier patch S(u, w) = Σ_i Σ_j B_i(u) B_j(w) P_ij of a net of control points, of any degrees.
 
-    B_i(u) = C(n, i) u^i (1 - u)^(n - i) (Farin, Curves and Surfaces for CAGD, 5th ed., section 14.2). It meets the four corner
-    points; the boundary rows and columns of the net are control points of the boundary curves; inner rows and columns are
-    control polygons of curves that do *not* lie on the patch. Derivatives to any order. Parts, splits and moved patches are
-    Bezier patches again.
+    B_i(u) = C(n, i) u^i (1 - u)^(n - i) (Farin, Curves and Surfaces for CAGD, 5th ed., on Bezier patches). It meets the four
+    corner points; the boundary rows and columns of the net are control points of the boundary curves; inner rows and columns
+    are control polygons of curves that do *not* lie on the patch. Derivatives to any order. Parts, splits and moved patches
+    are Bezier patches again.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ class Coons(Surface):
     Linear blending: S(u, w) = (1-w) c0(u) + w c1(u) + (1-u) d0(w) + u d1(w)
     - [(1-u)(1-w) p00 + u (1-w) p10 + (1-u) w p01 + u w p11],
     the two ruled surfaces less the bilinear one, which both contain (S. A. Coons, Surfaces for computer-aided design of space
-    forms, MIT MAC-TR-41, 1967; Farin, Curves and Surfaces for CAGD, 5th ed., section 22.1). Cubic blending has F1 and F2 of
+    forms, MIT MAC-TR-41, 1967; Farin, Curves and Surfaces for CAGD, 5th ed., on Coons patches). Cubic blending has F1 and F2 of
     the Hermite functions in place of 1-t and t, in all three parts: the tangents across an edge then depend only on the edge's
     ends, so that patches side by side join smoothly. Derivatives as far as the curves have them: any order for those of the
     library, the second for plain callables (accuracy: see `FunctionCurve`).
@@ -181,7 +181,7 @@ def coons_net(
     P_ij = (1-t_j) c0_i + t_j c1_i + (1-s_i) d0_j + s_i d1_j - [bilinear in the four corners], with s = tu, t = tw. With
     equally spaced s and t it is the net of the bilinearly blended Coons patch of four Bezier curves; for B-spline curves s
     and t must be the Greville abscissae of their knots: equally spaced ones miss the Coons patch by percents (Farin &
-    Hansford, Discrete Coons patches, CAGD 16 (1999) 691-700).
+    Hansford, Discrete Coons patches, CAGD 16, 1999).
 
     Parameters
     ----------

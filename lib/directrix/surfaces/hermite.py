@@ -25,7 +25,7 @@ class HermitePatch(TensorPatch):
              [pu00, pu01, puw00, puw01],
              [pu10, pu11, puw10, puw11]]
 
-    in Mortenson's order (Geometric Modeling, 3rd ed., chapter 7), first index u: p01 is the corner u = 0, w = 1; pu, pw are
+    in Mortenson's order (Geometric Modeling, 3rd ed.), first index u: p01 is the corner u = 0, w = 1; pu, pw are
     derivatives by u and w; the twist puw is the mixed derivative. In his words S = U M_F G M_Fᵀ Wᵀ with U = (u³ u² u 1). The
     twists do not move the boundary curves. Derivatives to any order; those above the third are 0.
 
@@ -150,7 +150,7 @@ class Ferguson(HermitePatch):
 
     It equals the cubically blended Coons patch of its own four edges. Zero twists flatten the corners: the net of its Bezier
     form is a parallelogram there (J. C. Ferguson, Multivariable curve interpolation, J. ACM 11 (1964) 221-228; Farin, Curves
-    and Surfaces for CAGD, 5th ed., section 16.3).
+    and Surfaces for CAGD, 5th ed., on twists).
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def coons_twists(G: ArrayLike) -> Array:
     """The twists with which a Hermite patch equals the bilinearly blended Coons patch of its four edges.
 
     t_ij = (pw_1j - pw_0j) + (pu_i1 - pu_i0) - (p11 - p10 - p01 + p00), Adini's twists of a single patch
-    (Farin, Curves and Surfaces for CAGD, 5th ed., section 16.3). They vanish for a translational surface.
+    (Farin, Curves and Surfaces for CAGD, 5th ed., on twists). They vanish for a translational surface.
 
     Parameters
     ----------

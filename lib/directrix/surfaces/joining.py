@@ -44,7 +44,7 @@ def join(a: Any, b: Any) -> Join:
     Where edges of both meet in a pole, and other edges meet too, those count. C0: the edges are the same, point for point, to
     1e-9 of the size of both. G1: besides, the tangent planes agree along the
     edge and b goes on where a leaves off. C1, C2: the first (and second) derivatives across the edge are equal as well, with a
-    and b run through at the speed of their own parameters (Farin, Curves and Surfaces for CAGD, 5th ed., chapter 11).
+    and b run through at the speed of their own parameters (Farin, Curves and Surfaces for CAGD, 5th ed., on continuity).
 
     Parameters
     ----------

@@ -159,7 +159,7 @@ class Torus(Surface):
     is turned about z by w. R > r is a ring (genus 1), R = r a horn (pinched in one point), 0 < R < r a spindle (it crosses
     itself on the axis), R = 0 a sphere covered twice (genus 0). With R measured to the centre of the tube, equal radii make a
     horn, not a sphere; that needs equal centres. Normals point into the tube where R + r cos phi > 0. Area 4 pi^2 R r for
-    R >= r. (do Carmo, Differential Geometry of Curves and Surfaces, section 2-5, example 5.)
+    R >= r. (do Carmo, Differential Geometry of Curves and Surfaces, section 2-5.)
 
     Parameters
     ----------

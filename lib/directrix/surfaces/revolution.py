@@ -28,7 +28,7 @@ class CircularSweep(Surface):
     edge w collapses to a point. Multiples of a quarter turn are exact, and a whole turn closes bit for bit. Derivatives to
     any order in w, in u as far as the curve's own. (Piegl & Tiller, The NURBS Book, 2nd ed., section 8.5, the
     surface of revolution, there rational and not at constant speed. Rogers & Adams, Mathematical Elements for Computer
-    Graphics, 2nd ed., chapter 6, write row vectors, so their matrices are transposed.)
+    Graphics, 2nd ed., write row vectors, so their matrices are transposed.)
 
     Parameters
     ----------
