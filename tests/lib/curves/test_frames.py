@@ -119,7 +119,7 @@ def test_the_neighbours_exist(kind, directrix):
 
 
 def test_minimal_frame_solves_its_differential_equation():
-    """r' = -(t' . r) t (Wang et al. 2008, eq. 2), integrated by scipy from the axes at w = 0."""
+    """r' = -(t' . r) t (Wang et al. 2008), integrated by scipy from the axes at w = 0."""
     curve = dx.BezierCurve([(0, 0, 0), (1, 3, 1), (4, 3, -2), (5, 0, 3)])
 
     def rate(w, r):
