@@ -704,3 +704,6 @@ for name, form in middles.items():
 # curves](../A8/boundary-and-solids.ipynb), where the place is named in which the two can never be told apart.
 #
 # And where one sheet ends, a solid may begin: six patches that close, and a third parameter to fill them. That is in A8, too.
+#
+# Left open: in the end somebody *makes* the thing, and it is not quite what was meant. By how much? That is the next
+# chapter: [How round a part is](05-how-round-a-part-is.ipynb).
