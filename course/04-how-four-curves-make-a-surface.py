@@ -705,5 +705,5 @@ for name, form in middles.items():
 #
 # And where one sheet ends, a solid may begin: six patches that close, and a third parameter to fill them. That is in A8, too.
 #
-# Left open: in the end somebody *makes* the thing, and it is not quite what was meant. By how much? That is the next
-# chapter: [How round a part is](05-how-round-a-part-is.ipynb).
+# Left open: somebody *makes* the thing, and it is not quite what was meant. By how much? That is the next chapter: [How round
+# a part is](05-how-round-a-part-is.ipynb).
