@@ -741,5 +741,4 @@ with once_written():
 # Left open: these forms had names. Two hundred points of a *car door* have none. Then the ideal form is itself one of the
 # patches of the chapters before, and someone has to say which $(u, w)$ each point belongs to: `patch.nearest(points)` does.
 #
-# And who says that the file which was measured against is still the surface which was drawn? That is the next chapter: [When two
-# formulas are one surface](06-when-two-formulas-are-one-surface.ipynb).
+# Next: [When two formulas are one surface](06-when-two-formulas-are-one-surface.ipynb).
