@@ -111,7 +111,7 @@ def lagrange(nodes: Array, t: Array, derivative: int = 0) -> Array:
 
 
 def de_casteljau(points: Array, t: float) -> tuple[Array, Array, Array]:
-    """One point of a Bezier curve by repeated halving, the slow honest way, and the control points of both parts.
+    """One point of a Bezier curve by repeated interpolation, the slow honest way, and the control points of both parts.
 
     Each round replaces neighbours by (1 - t) a + t b, until one point is left; first points of the rounds are the control
     points of the part [0, t], last points those of [t, 1] (Farin, Curves and Surfaces for CAGD, 5th ed., on subdivision).
