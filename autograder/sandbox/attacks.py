@@ -3,6 +3,7 @@
 ``directrix doctor`` and the tests run this file in the sandbox, and also without it (``python attacks.py NAME FACTS``), to show
 that each attack would work if nobody stopped it. Standard library only, and harmless by construction: decoys, small amounts,
 everything undone. ``facts`` is JSON: what the attacker knows, such as the path of a decoy.
+More than 400 lines, for it is one list and one file crosses into the sandbox; each attack is a few lines.
 """
 
 import ctypes
@@ -302,6 +303,19 @@ def kill_by_file(facts: str) -> bool:
     time.sleep(0.2)
     with open(f"/proc/{victim}/stat", encoding="ascii") as file:
         return file.read().rpartition(")")[2].split()[0] == "Z"
+
+
+def lease(facts: str) -> bool:
+    """Have whoever opens a file wait: any file of this user, a grader's Python and packages among them (one's own is tried)."""
+    for opened in (lambda: os.fdopen(1, "ab", closefd=False), tempfile.TemporaryFile):  # at level A- no file may be made
+        with opened() as file:
+            try:
+                fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_WRLCK)
+            except OSError:  # what is printed may go to no file
+                continue
+            fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_UNLCK)
+            return True
+    return False
 
 
 def kill_group(facts: str) -> bool:

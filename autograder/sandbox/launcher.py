@@ -26,7 +26,7 @@ from autograder.sandbox.policy import Policy
 from autograder.sandbox.view import DEVICES, View, view
 
 DROPPED_UID = 60777  # in the range that systemd's table of uids leaves unused
-SHARED_SCRATCH = 1024 * 2**20  # of all notebooks together, level A- only
+SCRATCH_OF_A_WORKER = 256 * 2**20  # level A- only: of two processes, their files and what they print, so that nobody fills it
 STAGE = "/tmp"  # where rootprep lays the mounts out, in a mount namespace of its own
 
 
@@ -169,7 +169,8 @@ def options(seen: View, level: str) -> list[str]:
     if level == "A":
         command += ["--proc", "/proc"]
     else:
-        command += ["--size", str(SHARED_SCRATCH), "--perms", "0700", "--tmpfs", SCRATCH]
+        size = max(4, os.cpu_count() or 1) * SCRATCH_OF_A_WORKER
+        command += ["--size", str(size), "--perms", "0700", "--tmpfs", SCRATCH]
     return [*command, "--remount-ro", "/", "--chdir", "/"]
 
 

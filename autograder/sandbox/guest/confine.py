@@ -50,7 +50,7 @@ def confine(
         raise OSError(f"to withhold {', '.join(withhold)}, a notebook needs a mount namespace of its own, which level A has")
     work, temporary = f"{scratch}/work", f"{scratch}/tmp"
     for folder in (work, temporary, f"{scratch}/home"):
-        os.mkdir(folder, 0o700)
+        os.makedirs(folder, 0o700, exist_ok=False)
     if level == "A":
         system.mount(temporary, "/tmp", None, system.MS_BIND)
     _capture(scratch, int(limits["file"]))

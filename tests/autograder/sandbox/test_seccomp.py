@@ -135,6 +135,15 @@ def test_terminal_and_limit_calls_by_their_arguments(machine):
     assert decide(machine, number(machine, "prctl"), [4]) == ERRNO["EPERM"]  # PR_SET_DUMPABLE
 
 
+def test_of_files_only_what_concerns_no_other_process(machine):
+    fcntl = number(machine, "fcntl")
+    for command in (0, 1, 2, 3, 4, 5, 6, 7, 1030):  # F_DUPFD to F_SETLKW, F_DUPFD_CLOEXEC
+        assert decide(machine, fcntl, [0, command]) == decide(machine, fcntl, [0, command], processes=True) == ALLOW
+    for command in (8, 10, 15, 1024, 1026, 1031):  # F_SETOWN, F_SETSIG, F_SETOWN_EX, F_SETLEASE, F_NOTIFY, F_SETPIPE_SZ
+        assert decide(machine, fcntl, [0, command]) == ERRNO["EPERM"]
+        assert decide(machine, fcntl, [0, command], processes=True) == ERRNO["EPERM"]
+
+
 def test_other_architectures_are_killed():
     assert decide("x86_64", 1, architecture=0x40000003) == KILL  # 32-bit
     assert decide("x86_64", 0x40000001) == KILL  # x32
