@@ -7,19 +7,24 @@ break ends the run.
 
 from __future__ import annotations
 
+import contextlib
+import glob
 import os
 import re
 import stat
+import weakref
 from pathlib import Path
 from typing import Any
 
 import nbformat
 from nbconvert.exporters import NotebookExporter
 
+from autograder.course import Course
 from autograder.notebook.submission import NO_ID, PLAIN_ID, Bounds, parse, read_file
 from autograder.notebook.timestamps import FILE
 
 TIMESTAMP = 1000  # bytes of the file that says when it was handed in
+MOST_LEFT_OUT = 20  # files of one submission; nbgrader looks for each of them beside every file that it copies
 
 
 class Submitted(NotebookExporter):
@@ -28,13 +33,25 @@ class Submitted(NotebookExporter):
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)  # type: ignore[no-untyped-call]
         listed: dict[str, Any] = getattr(self.parent, "assignments", {})
+        if not listed:
+            return
+        converter: Any = self.parent
+        coursedir = converter.coursedir
+        largest = Course(coursedir.root, config=self.config).bounds.file
+        left_out: list[str] = []
         for folder in list(listed):
-            reason = self._refused(folder)
+            odd = [] if os.path.islink(folder) else _odd(Path(folder), largest)
+            reason = self._refused(folder, odd)
             if reason:
                 del listed[folder]
                 self.log.error("%s was not graded: %s", ascii(folder), reason)
+                continue
+            left_out += odd
+            for path in odd:
+                self.log.warning("%s was not copied: it leads to no file, or to one too large", ascii(path))
+        _ignore(coursedir, left_out)
 
-    def _refused(self, folder: str) -> str:
+    def _refused(self, folder: str, odd: list[str]) -> str:
         """Why nbgrader must not even begin with a submission; empty if it may."""
         converter: Any = self.parent
         layout = converter._format_source("(?P<assignment_id>.*)", "(?P<student_id>.*)", escape=True)
@@ -44,8 +61,9 @@ class Submitted(NotebookExporter):
         above = Path(folder).parent
         if os.path.islink(folder) or (above.name == student["student_id"] and above.is_symlink()):
             return "it is a link"
-        endless = _endless(Path(folder), 1000 * converter.coursedir.max_file_size)
-        return f"{endless} lead to no file, or to one too large, and copying them might never end" if endless else ""
+        if os.path.join(folder, FILE) in odd:  # nbgrader reads it whole before it looks at what to copy
+            return f"{FILE} leads to no file, or is too large"
+        return f"{len(odd)} of its names lead to no file, or to one too large" if len(odd) > MOST_LEFT_OUT else ""
 
     def from_filename(self, filename: str, resources: Any = None, **options: Any) -> tuple[Any, Any]:
         """Read a notebook; raises SubmissionError, which nbgrader names with the student, if we could not read it."""
@@ -67,8 +85,8 @@ class Submitted(NotebookExporter):
         return bool(getattr(self.parent, "_sanitizing", True))
 
 
-def _endless(folder: Path, largest: float) -> list[str]:
-    """Names of devices, FIFOs and sockets, of what is too large, and of links to such, that are no notebooks.
+def _odd(folder: Path, largest: int) -> list[str]:
+    """Paths of devices, FIFOs and sockets, of what is too large, and of links to such, that are no notebooks.
 
     A file of the kernel's (``/proc/self/pagemap``) says that it is empty and gives hundreds of gigabytes: a link to an empty
     file is one of them. ``timestamp.txt`` is read whole before anything is copied.
@@ -77,12 +95,27 @@ def _endless(folder: Path, largest: float) -> list[str]:
     for place, _, names in os.walk(folder):
         for name in names:
             path = os.path.join(place, name)
-            try:
-                about = os.stat(path)
-            except OSError:  # a link to nowhere: copying fails at once
-                continue
             most = TIMESTAMP if path == str(folder / FILE) else largest
-            regular = stat.S_ISREG(about.st_mode) and about.st_size <= most and (about.st_size or not os.path.islink(path))
+            regular = False
+            with contextlib.suppress(OSError):  # a link to nowhere
+                about = os.stat(path)
+                regular = stat.S_ISREG(about.st_mode) and about.st_size <= most
+                regular = regular and (about.st_size > 0 or not os.path.islink(path))
             if not regular and not name.endswith(".ipynb"):
-                found.append(name)
+                found.append(path)
     return sorted(found)
+
+
+def _ignore(coursedir: Any, paths: list[str]) -> None:
+    """Add paths to what nbgrader does not copy, in the place of those of an earlier run in the same process (formgrader's).
+
+    nbgrader joins each pattern to the folder of a file, and a whole path stays what it is: it means this one file, and not the
+    instructor's of the same name.
+    """
+    before = _ignored.get(coursedir, frozenset())
+    added = [glob.escape(path) for path in paths]
+    coursedir.ignore = [pattern for pattern in coursedir.ignore if pattern not in before] + added
+    _ignored[coursedir] = frozenset(added)
+
+
+_ignored: weakref.WeakKeyDictionary[Any, frozenset[str]] = weakref.WeakKeyDictionary()  # by course directory

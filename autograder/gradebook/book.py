@@ -329,6 +329,8 @@ def _cell_scores(row: NotebookRow, given: NotebookMarks) -> Iterator[tuple[str, 
     for name, cell in row.graded.items():
         mark = given.marks.get(name, Mark(None, look=True))
         yield cell, {"auto": mark.points, "look": mark.look or mark.points is None, "never": False}
+    for cell in row.tasks.values():  # a person's mark may be of an earlier submission, a zero of one without this notebook
+        yield cell, {"auto": None, "look": True, "never": False}
 
 
 _DATES = sa.select(submitted_assignment.c.timestamp, submitted_assignment.c.extension).where(
@@ -337,6 +339,7 @@ _DATES = sa.select(submitted_assignment.c.timestamp, submitted_assignment.c.exte
 _TOTAL = sa.select(_sum(score_of)).where(
     grade.c.notebook_id == sa.bindparam("nb"), grade.c.cell_id.in_(sa.bindparam("cells", expanding=True))
 )
+_TAKEN = sa.select(submitted_notebook.c.late_submission_penalty).where(submitted_notebook.c.id == sa.bindparam("nb"))
 _PENALTY = (
     sa.update(submitted_notebook)
     .where(submitted_notebook.c.id == sa.bindparam("nb"))
@@ -362,7 +365,11 @@ def _standing(
         place = notebooks[id, of.notebooks[name].id]
         score = float(connection.scalar(_TOTAL, {"nb": place, "cells": graded(of.notebooks[name])}) or 0.0)
         total += score
-        if given.missing or given.broken:
+        if given.missing or given.broken:  # the policy is not asked; of what it took before, no more than there is now
+            before = connection.scalar(_TAKEN, {"nb": place})
+            if before is not None:
+                taken += min(before, score)
+                taken_off.append({"nb": place, "off": min(before, score)})
             continue
         off = penalty(record.student, score, late) if penalty is not None and late > 0 else None
         capped = None if off is None else min(max(float(off), 0.0), score)

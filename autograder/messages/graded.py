@@ -18,6 +18,7 @@ GRADED: dict[str, str] = {
     "graded.nothing": "nothing",
     "graded.nan": "The test returned not a number: 0 points for now; please look at it.",
     "graded.outside": "The test returned {value}, outside 0 to {points}: 0 points for now; please look at it.",
+    "graded.could_not_cross": "A value could not go to the test, and may be right: 0 points for now; please look at it.",
     "graded.no_response": "No response.",
     # --- cells that are not there, or there twice
     "graded.missing": "The cell is missing from the submission: no mark, please look at it.",

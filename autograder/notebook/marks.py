@@ -85,11 +85,20 @@ def scored(outputs: Sequence[Mapping[str, Any]], points: float, *, number: bool 
     """
     for output in outputs:
         kind = output["output_type"]
+        if kind == "error" and _could_not_cross(output):
+            return Mark(0.0, look=True, note=say("graded.could_not_cross"))
         if kind == "error" or (kind == "stream" and output["name"] == "stderr"):
             return Mark(0.0)
         if kind == "execute_result":
             return partial(output["data"].get("text/plain"), points, number=number)
     return Mark(points) if not number else Mark(0.0, look=True, note=say("graded.no_points", shown=say("graded.nothing")))
+
+
+def _could_not_cross(output: Mapping[str, Any]) -> bool:
+    """Whether a test that runs apart failed for a value that has no way to it, which may be a right one."""
+    gap, told = "\0", ("guest.hands_over", "guest.cannot_leave", "guest.has_now")
+    ends = tuple(say(key, name=gap, what=gap).rpartition(gap)[2] for key in told)
+    return output.get("ename") == "NoAnswer" and str(output.get("evalue")).endswith(ends)
 
 
 def returns_number(outputs: Sequence[Mapping[str, Any]]) -> bool:
@@ -139,10 +148,13 @@ DIFFERENCES = (
     ("np.float64(0.5) returned by a test cell", "full points", "0.5 points"),
     ("a negative number or NaN returned by a test cell", "full points", "0 points and a manual look"),
     ("an array, or nothing, returned where it is a number with the solution in source/", "full points", "0 points and a look"),
+    ("a Decimal, or the learner's own class, where a test runs apart", "as the test finds", "0 points and a look"),
     ("a number above the points", "the submission is dropped", "0 points and a manual look (rounding aside)"),
     ("a tag such as skip-execution on a graded cell of the submission", "not run, full points", "ignored: it is run"),
     ("a graded cell that is there twice", "the run for the whole class stops", "the last counts, with a manual look"),
     ("a graded cell that was deleted from a resubmission", "keeps the old mark", "no mark, and a manual look"),
+    ("a task of a resubmission", "a mark by hand, or the zero of no notebook, stands", "the first stands, with a manual look"),
+    ("a penalty on a notebook that a resubmission leaves out", "taken off the others", "no more than the notebook has"),
     ("a resubmission without any notebook", "keeps the old marks", "no marks, and a manual look (by `directrix grade`)"),
     ("a notebook in UTF-16, or with an odd nbformat_minor", "the submission is dropped", "graded"),
     ("a time zone written +0100 in timestamp.txt", "taken for 100 seconds", "one hour"),

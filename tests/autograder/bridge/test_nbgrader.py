@@ -127,14 +127,21 @@ def test_nbgrader_releases_the_feedback_that_we_wrote(ordinary, tmp_path):
     assert [path.read_bytes() for path in released] == [page.read_bytes()]
 
 
-def test_what_would_hold_the_class_or_fill_the_disk_is_named_and_the_others_are_graded(ordinary, bridge_line):
-    """nbgrader alone waits for ever at the FIFO, and copies zeros until the disk is full."""
+def test_what_would_hold_the_class_or_fill_the_disk_is_named_and_the_others_are_graded(ordinary, bridge_line, tmp_path):
+    """nbgrader waits for ever at the FIFO, and copies zeros until the disk is full. Either command leaves out the same."""
     ordinary.configure(bridge_line)
-    os.mkfifo(ordinary.hand_in("fifo", {"two": ADD}) / "one.ipynb")
-    (ordinary.hand_in("zero", {"one": RIGHT, "two": ADD}) / "data.bin").symlink_to("/dev/zero")
+    left_out = ("zero", "proc", "large", "nowhere")
+    (ordinary.hand_in("zero", {"one": RIGHT, "two": ADD}) / "[data].bin").symlink_to("/dev/zero")
     # as every file of the kernel's, pagemap too, which has hundreds of gigabytes, it says that it is empty
     (ordinary.hand_in("proc", {"one": RIGHT, "two": ADD}) / "data.bin").symlink_to("/proc/self/status")
-    os.truncate(ordinary.hand_in("large", {"one": RIGHT, "two": ADD}, files={"data.bin": b""}) / "data.bin", 100_000_001)
+    large = ordinary.hand_in("large", {"one": RIGHT, "two": ADD}, files={"data.txt": b""})
+    os.truncate(large / "data.txt", 32_000_001)  # the instructor has a file of that name
+    (ordinary.hand_in("nowhere", {"one": RIGHT, "two": ADD}) / "data.bin").symlink_to("nowhere")
+    ours = ordinary.copy(tmp_path / "ours")
+    ordinary.hand_in("many", {"one": RIGHT, "two": ADD})
+    for number in range(21):
+        (ordinary.folder / f"submitted/many/ps1/{number}").symlink_to("/dev/null")
+    os.mkfifo(ordinary.hand_in("fifo", {"two": ADD}) / "one.ipynb")
     ordinary.hand_in("long", {"one": RIGHT, "two": ADD}, timestamp="2027-02-01 11:00:00 UTC".ljust(1001))
     os.mkfifo(ordinary.hand_in("when", {"one": RIGHT, "two": ADD}) / "timestamp.txt")
     (ordinary.hand_in("linked", {"two": ADD}) / "one.ipynb").symlink_to(ordinary.folder / "source/ps1/one.ipynb")
@@ -145,11 +152,17 @@ def test_what_would_hold_the_class_or_fill_the_disk_is_named_and_the_others_are_
         ordinary.hand_in(name, {"one": RIGHT, "two": ADD})
     done = nbgrader(ordinary.folder, "autograde", "ps1")
     assert done.returncode == 1
-    for student in ("fifo", "zero", "proc", "large", "long", "when", "linked", "whole", "new\\nline", "a<b>"):
+    for student in ("fifo", "many", "long", "when", "linked", "whole", "new\\nline", "a<b>"):
         assert f"{student}/ps1" in done.stderr or f"'{student}'" in done.stderr
         assert not (ordinary.folder / "autograded" / student / "ps1").exists()
     marked = dict(ordinary.sql(MARKED))
-    assert marked == {"zoe": 2.0}
+    assert marked == dict.fromkeys(("zoe", *left_out), 2.0)
+    assert fleet.grade(ours.course(), "ps1", students=left_out).failures == ()
+    theirs, mine = ordinary.autograded(), ours.autograded()
+    assert {name for name in theirs if not name.startswith("zoe/")} == set(mine)
+    assert mine["large/ps1/data.txt"] == theirs["large/ps1/data.txt"] == b"of the instructor\n"
+    for student in left_out:
+        assert f"{student}/ps1/" in done.stderr
 
 
 MARKED = """select s.student_id, max(x.auto_score) from grade x join submitted_notebook sn on x.notebook_id = sn.id

@@ -154,9 +154,11 @@ def test_what_cannot_cross_fails_its_cell_with_a_message(course):
     course.hand_in("dee", {"one": {**RIGHT, "mean": "class Mean: pass\ndef mean(xs): return Mean()"}})
     graded = fleet.grade(course.course(), "ps1")
     assert points(graded, "dee")["test_mean"] == 0
+    assert {cell.name for cell in graded.student("dee").cells if cell.look} == {"test_mean", "test_hidden", "test_partial"}
     notebook = json.loads((course.folder / "autograded" / "dee" / "ps1" / "one.ipynb").read_text())
     said = [cell for cell in notebook["cells"] if cell["metadata"].get("nbgrader", {}).get("grade_id") == "test_mean"]
-    assert "an object of type Mean, which cannot leave the notebook" in said[0]["outputs"][-1]["evalue"]
+    assert "an object of type Mean, which cannot leave the notebook" in said[0]["outputs"][-2]["evalue"]
+    assert "may be right" in str(said[0]["outputs"][-1]["data"])
 
 
 def test_a_course_may_insist(course):

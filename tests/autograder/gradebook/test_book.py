@@ -73,8 +73,7 @@ def test_writing_again_adds_no_row_and_touches_no_manual_work(book, ordinary):
     assert ordinary.sql("select distinct manual_score, extra_credit from grade") == [(1.0, 0.5)]
     assert ordinary.sql("select distinct flagged from submitted_notebook") == [(1,)]
     assert ordinary.sql("select timestamp from submitted_assignment") == [("2027-01-01 00:00:00.000000",)]
-    looks = ordinary.sql("select needs_manual_grade, b.type from grade join base_cell b on cell_id = b.id")
-    assert set(looks) == {(1, "GradeCell"), (0, "TaskCell")}
+    assert ordinary.sql("select distinct needs_manual_grade from grade") == [(1,)]  # tasks too: the work is another now
     assert book.students()["ada"] == "Ada"
 
 
@@ -104,6 +103,33 @@ def test_a_penalty_is_capped_to_the_score_and_only_for_the_late(book, ordinary):
     assert seen == [("ada", 2.0, 3600.0), ("ada", 1.0, 3600.0)]
     assert (standings["ada"].penalty, standings["bob"].penalty) == (2.0, 0.0)
     assert book.penalties(row) == {("ada", "one"): 2.0, ("ada", "two"): 0.0, ("bob", "one"): 0.0, ("bob", "two"): 0.0}
+
+
+def test_what_a_missing_notebook_was_given_goes_when_it_is_handed_in(book, ordinary):
+    """The zero of its task as well: somebody has to look at the task now."""
+    row = book.assignment("ps1")
+    task = "select auto_score, needs_manual_grade from grade join base_cell b on cell_id = b.id where b.name = 'essay'"
+    book.write(row, [Record("ada", None, {**MARKS, "one": NotebookMarks(missing=True)})])
+    assert ordinary.sql(task) == [(0.0, 0)]
+    book.write(row, [Record("ada", None, MARKS)])
+    assert ordinary.sql(task) == [(None, 1)]
+
+
+@pytest.mark.parametrize("left", [NotebookMarks(missing=True), NotebookMarks(broken=True)])
+def test_a_notebook_that_is_left_out_takes_nothing_off_the_others(book, ordinary, left):
+    ordinary.sql("update assignment set duedate = '2027-01-01 00:00:00.000000'")
+    row, late = book.assignment("ps1"), datetime.datetime(2027, 1, 1, 1)
+
+    def all_of_it(student, score, seconds):
+        return score
+
+    assert book.write(row, [Record("ada", late, MARKS)], penalty=all_of_it)["ada"].penalty == 3.0
+    standing = book.write(row, [Record("ada", late, {**MARKS, "one": left})], penalty=all_of_it)["ada"]
+    assert (standing.score, standing.penalty) == (1.0, 1.0)
+    assert book.penalties(row) == {("ada", "one"): 0.0, ("ada", "two"): 1.0}
+    ordinary.sql("update grade set manual_score = 1.5 where cell_id = (select id from base_cell where name = 'essay')")
+    ordinary.sql("update submitted_notebook set late_submission_penalty = 2")
+    assert book.write(row, [Record("ada", late, {**MARKS, "one": left})], penalty=all_of_it)["ada"].penalty == 2.5
 
 
 def test_a_part_of_the_class_reads_as_in_the_whole(book, ordinary):

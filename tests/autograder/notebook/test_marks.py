@@ -151,3 +151,17 @@ def test_where_a_number_of_points_is_due_nothing_else_has_points(shown):
 def test_a_number_that_is_due_counts():
     assert scored([result("np.float64(0.5)")], 3.0, number=True) == Mark(0.5)
     assert returns_number([result("np.float64(0.5)")])
+
+
+@pytest.mark.parametrize(
+    ("said", "look"),
+    [
+        ("mean is an object of type M, which cannot leave the notebook for this test", True),
+        ("an argument has a lock in it now, which cannot leave the notebook for this test", True),
+        ("the test hands over an object of type P, which cannot go to the learner's process", True),
+        ("the learner's process has ended", False),
+    ],
+)
+def test_a_value_that_cannot_reach_its_test_may_be_right_and_asks_for_a_look(said, look):
+    given = scored([{"output_type": "error", "ename": "NoAnswer", "evalue": said, "traceback": []}], 3.0)
+    assert (given.points, given.look) == (0.0, look)

@@ -170,6 +170,8 @@ def tried(monkeypatch):
     yield " ".join(judged(one, 2.0).note for one in runs) + mark(code(""), task("t", "ok"), None).note
     yield " ".join(partial(shown, 2.0).note for shown in (None, "[1]", "nan", "7"))
     yield partial("[1]", 2.0, number=True).note + scored([], 2.0, number=True).note
+    lost = {"output_type": "error", "ename": "NoAnswer", "evalue": messages.say("guest.cannot_leave", name="f", what="M")}
+    yield scored([lost], 2.0).note
     yield from gone()
     yield from from_a_kernel()
     yield safe.text("x" * 20, 10)
