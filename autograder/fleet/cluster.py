@@ -7,10 +7,12 @@ A worker that is lost loses time: its batches are graded by others, and only thi
 from __future__ import annotations
 
 import contextlib
+import logging
 import pickle
 from asyncio import CancelledError
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 
 import distributed
 from distributed.comm.core import CommClosedError
@@ -21,6 +23,7 @@ from autograder.fleet.task import Landed, Task
 from autograder.fleet.workers import Lost
 from autograder.notebook.submission import Submission, digest
 
+log = logging.getLogger(__name__)
 BATCH = 25  # submissions at most in a task: a task costs Dask about a millisecond, a submission ten to thirty
 BATCH_BYTES = 8 * 2**20
 
@@ -53,7 +56,8 @@ class Cluster:
         read: Callable[[Task], Submission | Landed],
         lay_out: Callable[[Landed], Landed],
     ) -> None:
-        self.client, self.job, self._seed, self._read, self._lay_out = client, job, seed, read, lay_out
+        self.client, self._seed, self._read, self._lay_out = client, seed, read, lay_out
+        self.job = replace(job, name=f"{job.name}-{client.id}")  # so that others see whose it is
         self.unfinished: list[Task] = []
         self._closed = False
         self._sent: dict[distributed.Future, list[Task]] = {}
@@ -61,7 +65,8 @@ class Cluster:
         self._again: deque[Task] = deque()  # each by itself: one of them may be what ended its workers
         self._ready: list[tuple[Task, Landed]] = []
         with self._scheduler_gone():
-            client.register_plugin(Grading(job), name=job.name)
+            self._forget_the_dead()
+            client.register_plugin(Grading(self.job), name=self.job.name)
             self._size = max(1, min(BATCH, count // (2 * max(1, self._threads()))))
 
     def __enter__(self) -> Cluster:
@@ -108,6 +113,19 @@ class Cluster:
             for future in done:
                 yield from self._landed(future)
 
+    def _forget_the_dead(self) -> None:
+        """A grader that was killed took nothing back: each worker still keeps a sandbox for it, and what it was given."""
+        dead = self.client.run_on_scheduler(
+            lambda dask_scheduler: [
+                name
+                for name in dask_scheduler.worker_plugins
+                if name.startswith("directrix-") and name.split("-", 2)[2] not in dask_scheduler.clients
+            ]
+        )
+        for name in dead:
+            with contextlib.suppress(Exception):  # another grader has just done it
+                self.client.unregister_worker_plugin(name)
+
     def _threads(self) -> int:
         return sum(self.client.nthreads().values())
 
@@ -146,17 +164,26 @@ class Cluster:
         future.release()
         why = f"the cluster's workers that had it were lost ({type(error).__name__}: {error})"
         if error is None:
-            answers = pickle.loads(answer)
-            if len(answers) == len(tasks) and all(map(self._of, answers, tasks)):
+            answers = self._answers(answer, tasks)
+            if answers:
                 for task, landed in zip(tasks, answers, strict=True):
                     del self._digests[task.student]
                     yield task, self._lay_out(landed)
                 return
-            why = "the cluster's worker that had it answered for another submission"
+            why = "the cluster's worker that had it answered for another submission, or what cannot be read"
         if len(tasks) > 1:
             self._again.extend(tasks)
         else:
             yield tasks[0], Lost(why)
+
+    def _answers(self, answer: bytes, tasks: Sequence[Task]) -> list[Landed]:
+        """What came back, of each task its own; nothing if it is anything else. A worker is trusted, but may be broken."""
+        try:
+            answers: list[Landed] = pickle.loads(answer)
+            return answers if len(answers) == len(tasks) and all(map(self._of, answers, tasks)) else []
+        except Exception:  # cut short, or of types that no worker of this build sends
+            log.exception("a worker's answer cannot be read")
+            return []
 
     def _of(self, landed: Landed, task: Task) -> bool:
         """Whether this came of the task: of the student and of the bytes that were sent. Marks go to whom the record names."""

@@ -104,8 +104,11 @@ def listening(server: Any) -> list[str]:
 
 
 def _refuse_open(client: distributed.Client) -> None:
-    """Workers refuse themselves, now and when they come: see :class:`autograder.fleet.remote.Grading`."""
-    known = [*([client.scheduler.address] if client.scheduler is not None else []), *client.nthreads()]
-    refuse(known)
-    if any(address.startswith("tcp:") for address in known):  # a lambda, since directrix need not be there
-        refuse(client.run_on_scheduler(lambda dask_scheduler: [at.listen_address for at in dask_scheduler.listeners]))
+    """Workers refuse themselves, now and when they come: see :class:`autograder.fleet.remote.Grading`.
+
+    A scheduler that speaks TLS to us may listen without it too (``--protocol tls,tcp`` where Dask's require-encryption is
+    false), so it is always asked.
+    """
+    refuse([*([client.scheduler.address] if client.scheduler is not None else []), *client.nthreads()])
+    # A lambda, since directrix need not be there.
+    refuse(client.run_on_scheduler(lambda dask_scheduler: [at.listen_address for at in dask_scheduler.listeners]))

@@ -206,7 +206,7 @@ def test_two_graders_who_share_a_cluster_share_no_job(ordinary):
 
 
 def forged(landed):
-    """Of two: the first one twice. Of one: for another student's marks, of other bytes, or nothing at all."""
+    """Of two: the first one twice. Of one: for another student's marks, of other bytes, nothing, or what is no answer."""
     if len(landed) > 1:
         return [landed[0]] * len(landed)
     (one,) = landed
@@ -214,7 +214,7 @@ def forged(landed):
         return [replace(one, outcome=replace(one.outcome, record=replace(one.outcome.record, student="s00")))]
     if one.student == "s02":
         return [replace(one, outcome=replace(one.outcome, digest="of other bytes"))]
-    return [] if one.student == "s03" else landed
+    return {"s03": [], "s04": [one.student]}.get(one.student, landed)
 
 
 def test_what_a_worker_answers_for_another_submission_is_given_to_nobody(ordinary, monkeypatch):
@@ -223,11 +223,11 @@ def test_what_a_worker_answers_for_another_submission_is_given_to_nobody(ordinar
     grade = remote.Grading.grade
     monkeypatch.setattr(remote.Grading, "grade", lambda self, batch: forged(grade(self, batch)))
     monkeypatch.setattr(importlib.import_module("autograder.fleet.cluster"), "BATCH", 2)
-    hand_in(ordinary, 4)
+    hand_in(ordinary, 5)
     with in_this_process("tcp://127.0.0.1", 1, host="tcp://127.0.0.1") as address:
         graded = fleet.grade(ordinary.course(), "ps1", scheduler=address)
     assert {student.student: student.status for student in graded.students} == {
-        "s00": "graded", "s01": "failed", "s02": "failed", "s03": "failed"
+        "s00": "graded", "s01": "failed", "s02": "failed", "s03": "failed", "s04": "failed"
     }  # fmt: skip
     assert all("answered for another submission" in fault for fault in graded.faults)
     assert {name.split("/")[0] for name in ordinary.autograded()} == {"s00"}
@@ -278,6 +278,44 @@ def test_a_scheduler_that_listens_to_the_network_is_refused_though_it_is_reached
         connected(address),
     ):
         pass
+
+
+def test_a_scheduler_that_speaks_tls_and_listens_without_it_too_is_refused(cluster):
+    """`dask scheduler --protocol tls,tcp`, where Dask was told not to insist on TLS: the second door leads to all workers too."""
+    doors = {"protocol": ["tls", "tcp"], "port": [0, 0], "dashboard": False, "dashboard_address": "127.0.0.1:0"}
+    ca, key = (str(cluster.folder / "tls" / name) for name in ("ca.pem", "key.pem"))
+    roles = {f"tls_{role}_{what}": of for role in ("scheduler", "client") for what, of in (("cert", ca), ("key", key))}
+    security = distributed.Security(tls_ca_file=ca, require_encryption=False, **roles)
+    scheduler = {"cls": distributed.Scheduler, "options": {**doors, "security": security}}
+    with distributed.SpecCluster(workers={}, scheduler=scheduler, security=security, silence_logs=50) as here:
+        address = here.scheduler.address
+        assert address.startswith("tls://")
+        with pytest.raises(CourseError, match=r"^tcp://0\.0\.0\.0:\d+ is neither TLS"), connected(address):
+            pass
+
+
+def test_what_a_killed_grader_left_with_the_workers_is_taken_back_by_the_next_one(two_workers, ordinary):
+    """Its sandboxes, one a worker, and the instructor's copies; a living grader's are left alone."""
+    module, remote = (importlib.import_module(f"autograder.fleet.{name}") for name in ("cluster", "remote"))
+    plan = SimpleNamespace(rules=None, masters={}, instructor_files={}, scripts={}, open_session=SimpleNamespace(level="A"))
+
+    def jobs(client):
+        return client.run_on_scheduler(lambda dask_scheduler: set(dask_scheduler.worker_plugins) - {"shuffle"})
+
+    def begun(client):
+        return module.Cluster(client, remote.Job.of(ordinary.course(), "ps1", plan, {}), 1, None, None, None)
+
+    with connected(two_workers.address) as client, begun(client) as mine:
+        before = len(two_workers.sandboxes())
+        with connected(two_workers.address) as killed:
+            theirs = begun(killed)
+            assert jobs(client) == {mine.job.name, theirs.job.name}
+            assert len(two_workers.sandboxes()) == before + 2
+        with begun(client) as following:
+            assert jobs(client) == {mine.job.name, following.job.name}
+            assert len(two_workers.sandboxes()) == before + 2
+    with connected(two_workers.address) as client:
+        assert jobs(client) == set()
 
 
 def test_a_worker_that_listens_to_the_network_grades_nothing(ordinary):
