@@ -37,18 +37,21 @@ def around(angle, distance, z):
     return np.stack(np.broadcast_arrays(distance * np.cos(angle), distance * np.sin(angle), z), axis=-1)
 
 
-def paper(height=360, **more):
-    """An empty sheet for a drawing in the plane."""
-    figure = go.Figure().update_layout(height=height, template="none", margin={"t": 30, "b": 50, "l": 60, "r": 20}, **more)
+def paper(height, **names):
+    """An empty sheet for a drawing in the plane; above it what will be drawn, each in its colour."""
+    words = [f"<span style='color:{colour}'>━ {name.replace('_', ' ')}</span>" for name, colour in names.items()]
+    title = {"text": "&nbsp;&nbsp; ".join(words), "x": 0.5, "y": 0.96, "font": {"size": 13}}
+    figure = go.Figure().update_layout(height=height, template="none", showlegend=False, title=title)
+    figure.update_layout(margin={"t": 40 if names else 10, "b": 50, "l": 60, "r": 20})
+    figure.update_xaxes(showgrid=False, zeroline=False).update_yaxes(showgrid=False, zeroline=False)
     font = {"color": palette.INK, "family": palette.FONT}
     return figure.update_layout(paper_bgcolor=palette.CLEAR, plot_bgcolor=palette.CLEAR, font=font)
 
 
-def draw(figure, x, y, name=None, colour=palette.INK, width=3, dash=None, mode="lines", size=8):
-    """A line or points, in the legend where there is a name."""
+def draw(figure, x, y, colour=palette.INK, width=3, dash=None, mode="lines", size=8):
+    """A line or points."""
     line = {"color": colour, "width": width, "dash": dash, "simplify": False}
-    marker = {"color": colour, "size": size}
-    figure.add_scatter(x=x, y=y, mode=mode, name=name, showlegend=name is not None, line=line, marker=marker)
+    figure.add_scatter(x=x, y=y, mode=mode, line=line, marker={"color": colour, "size": size})
 
 
 def both(points, measure):
@@ -138,9 +141,9 @@ corner_up = None  # mm
 # %%
 four = np.array([(0, 0, 0), (100, 0, 0), (0, 100, 0), (100, 100, 1)], float)
 print("heights above the table, from lowest to highest:", np.ptp(four[:, 2]), "mm")
-reveal(corner_up, dx.flatness(four, "minimum zone").value, "mm")
 
 # %% fold=true
+reveal(corner_up, dx.flatness(four, "minimum zone").value, "mm")
 tall = np.array([1, 1, 40])  # the heights, 40 times too large
 around_it = [0, 1, 3, 2, 0]
 leans = four * [1, 1, 0] + np.outer((-0.25, 0.25, 0.25, 0.75), (0, 0, 1))  # the plane half way between the two
@@ -199,11 +202,17 @@ plot.view(reported(mistakes["z_range"].formula), against=reported(right), names=
 
 # %% [markdown]
 # A tenth of a millimetre of slant each way, and 40 µm have become 200. On the level plate nobody would have noticed: it is
-# **blind** to this mistake. It is not the only one. Here is what learners really write, on the plate lying level about the
-# origin, and on the plate as it might lie in a machine. Which of them is wrong on *both*?
+# **blind** to this mistake. Here are more that learners really make, on the plate lying level about the origin, and on the
+# plate as it might lie in a machine. Which of them are wrong on *both*?
+#
+# * `"z_range"`: the highest $z$ less the lowest
+# * `"vertical"`: the best $z = ax + by + c$, and what is left along $z$
+# * `"not_centred"`: the best of the planes through the origin
+# * `"three_points"`: the plane through three of the corners
+# * `"rms"`: the right plane, and the root mean square
 
 # %%
-wrong_on_both = None  # "z_range", "vertical", "not_centred", "three_points"; more than one
+wrong_on_both = None  # names
 
 # %%
 aslant = dx.Transform.translate((30, -20, 40)) @ dx.Transform.rotate((2, -1, 0), np.radians(40)) @ plate
@@ -211,7 +220,7 @@ written = {name: mistakes[name].formula for name in ("z_range", "vertical", "not
 for name, report in {"right": right, **written}.items():
     found = [1000 * report(points) for points in (plate, aslant)]
     print(f"{name:14} {found[0]:8.1f} µm level {found[1]:10.1f} µm aslant")
-reveal(wrong_on_both, "three_points, and rms, which is no zone at all")
+reveal(wrong_on_both, "three_points and rms: one has another plane, the other no zone")
 print("\n" + mistakes["three_points"].hint)
 
 # %% [markdown]
@@ -242,18 +251,18 @@ def sides(form, off):
     return [1000 * (form.point @ form.normal + off - form.normal[0] * at) / form.normal[2] for at in (-4, 104)]
 
 
-figure = paper(330, legend={"orientation": "h", "x": 0.05, "y": 1.16})
+figure = paper(330, least_squares=palette.YOURS, minimum_zone=palette.REFERENCE, measured=palette.INK)
 for method, colour, dash in (("least squares", palette.YOURS, "dash"), ("minimum zone", palette.REFERENCE, None)):
     zone = dx.flatness(rail(along, h), method)
-    for off, name in ((zone.residuals.max(), f"{method}: {1000 * zone.value:.2f} µm"), (zone.residuals.min(), None)):
-        draw(figure, (-4, 104), sides(zone.form, off), name, colour, 2.5, dash)
-        touching = np.abs(zone.residuals - off)[:11] < 1e-9
-        if dash is None:
-            draw(figure, along[touching], h[touching], colour=palette.MARK, mode="markers", size=17)
-draw(figure, along, h, "measured", palette.INK, 1.5, mode="lines+markers")
-figure.update_xaxes(title="along the rail, mm", showgrid=False, zeroline=False)
-figure.update_yaxes(title="height, µm", showgrid=False, zeroline=False, nticks=10)
+    for off in (zone.residuals.max(), zone.residuals.min()):
+        draw(figure, (-4, 104), sides(zone.form, off), colour, 2.5, dash)
+        touches = np.abs(zone.residuals - off)[:11] < 1e-9
+        if method == "minimum zone":
+            draw(figure, along[touches], h[touches], palette.MARK, mode="markers", size=17)
+draw(figure, along, h, palette.INK, 1.5, mode="lines+markers")
+figure.update_xaxes(title="along the rail, mm").update_yaxes(title="height, µm", nticks=10)
 squares, narrowest = both(rail(along, h), dx.flatness)
+print(f"least squares {squares:.2f} µm, minimum zone {narrowest:.2f} µm")
 reveal(least_squares_is, f"wider, by {100 * (squares / narrowest - 1):.0f} per cent")
 figure
 
@@ -337,11 +346,11 @@ waves = None  # a number
 theta = np.linspace(0, 2 * np.pi, 361)
 x, y = 20 * np.cos(theta) + 0.08, 20 * np.sin(theta) - 0.06
 at = np.unwrap(np.arctan2(y, x))
-figure = paper(300, legend={"orientation": "h", "x": 0.05, "y": 1.2})
-draw(figure, np.degrees(at), 1000 * (np.hypot(x, y) - 20), "a perfect ring, 0.1 mm beside the centre", palette.U)
-draw(figure, np.degrees(theta), 1000 * 0.006 * np.cos(3 * theta), "the lobes of the part, about their centre", palette.W)
-figure.update_xaxes(title="angle, degrees", tickvals=list(range(0, 361, 60)), range=[0, 360], showgrid=False)
-figure.update_yaxes(title="ϱ − 20 mm, in µm", showgrid=False, zeroline=False)
+figure = paper(300, a_perfect_ring_beside_the_centre=palette.U, lobes_about_their_centre=palette.W)
+draw(figure, np.degrees(at), 1000 * (np.hypot(x, y) - 20), palette.U)
+draw(figure, np.degrees(theta), 1000 * 0.006 * np.cos(3 * theta), palette.W)
+figure.update_xaxes(title="angle, degrees", tickvals=list(range(0, 361, 60)), range=[0, 360])
+figure.update_yaxes(title="ϱ − 20 mm, in µm")
 reveal(waves, "once: it is 0.08 cos θ − 0.06 sin θ, to within less than a µm")
 figure
 
@@ -425,25 +434,19 @@ hopeless = None  # numbers of places, above 3
 
 # %% fold=true
 with once_written():
-    figure = paper(380, legend={"orientation": "h", "x": 0.05, "y": 1.16})
+    figure = paper(380, three_lobes=palette.U, five_lobes=palette.W, the_truth=palette.INK)
     numbers = np.arange(4, 25)
+    draw(figure, (3.5, 24.5), (12, 12), width=1.5, dash="dot")
     for n, colour in ((3, palette.U), (5, palette.W)):
-        starts = np.linspace(0, 2 * np.pi, 181)
+        starts = np.linspace(0, 2 * np.pi, 61)
         out = np.array([[1000 * np.ptp(deviations(*lobes(n, m, at))) for at in starts] for m in numbers])
         low, high = out.min(axis=1), out.max(axis=1)
-        bars = {"symmetric": False, "array": high - low, "arrayminus": 0 * low, "thickness": 5, "width": 0, "color": colour}
-        figure.add_scatter(
-            x=numbers + (n - 4) * 0.14,
-            y=low,
-            error_y=bars,
-            mode="markers",
-            marker={"color": colour, "size": 8},
-            name=f"{n} lobes",
-        )
-        print(f"{n} lobes, reported 0 at worst from", ", ".join(str(m) for m in numbers[low < 1e-3]), "places")
-    draw(figure, (3.5, 24.5), (12, 12), "the truth", palette.INK, 1.5, "dot")
-    figure.update_xaxes(title="places probed, evenly all round", tickvals=numbers, showgrid=False)
-    figure.update_yaxes(title="reported, µm", range=[-0.6, 13], showgrid=False, zeroline=False)
+        for at, *ends in zip(numbers + (n - 4) * 0.14, low, high, strict=True):
+            draw(figure, (at, at), ends, colour, 5)
+        draw(figure, numbers + (n - 4) * 0.14, low, colour, mode="markers")
+        print(f"{n} lobes, 0 at worst from", ", ".join(str(m) for m in numbers[low < 1e-3]), "places")
+    figure.update_xaxes(title="places probed, evenly all round", tickvals=numbers[::2])
+    figure.update_yaxes(title="reported, µm", range=[-0.6, 13])
     display(figure)
 reveal(hopeless, "4, always; and 6, if it starts badly")
 
@@ -503,23 +506,23 @@ with once_written():
     holds("an oval is not", oval_widths, [43, 37])
     moved = width(lambda phi: support(phi) + 5 * np.cos(phi), phi)
     holds("5 mm to the side: the same", moved, width(support, phi))
-    reveal(varies, f"{np.ptp(width(support, phi)):.3f}", "mm")
 
 # %% fold=true
-figure = paper(300, showlegend=False).update_layout(margin={"l": 10, "r": 10, "t": 10, "b": 10})
+figure = paper(260).update_layout(margin={"l": 10, "r": 10, "t": 10, "b": 10})
 out = np.stack([np.cos(phi), np.sin(phi)])
 coin = support(phi) * out - 4.5 * np.sin(3 * phi) * np.stack([-np.sin(phi), np.cos(phi)])  # h and h' along and across
 for place, by in enumerate(np.radians((0, 12, 30))):
     turned = np.array([[np.cos(by), -np.sin(by)], [np.sin(by), np.cos(by)]]) @ coin
     sit = np.array([52 * place, -20 - turned[1].min()])
-    draw(figure, turned[0] + sit[0], turned[1] + sit[1], None, palette.CURVE, 4)
+    draw(figure, turned[0] + sit[0], turned[1] + sit[1], palette.CURVE, 4)
     for edge in (18.5, 21.5):
-        draw(figure, edge * out[0] + sit[0], edge * out[1] + sit[1], None, palette.INK, 1.5, "dot")
+        draw(figure, edge * out[0] + sit[0], edge * out[1] + sit[1], palette.INK, 1.5, "dot")
 for jaw in (-20, 20):
-    draw(figure, (-30, 134), (jaw, jaw), None, palette.U, 5)
+    draw(figure, (-30, 134), (jaw, jaw), palette.U, 5)
 figure.update_xaxes(visible=False).update_yaxes(visible=False, scaleanchor="x")
-gap = np.ptp(np.hypot(*coin))
-print(f"between two circles about its centre (dotted): {gap:.3f} mm out of round. Between the jaws: always 40 mm")
+with once_written():
+    reveal(varies, f"{np.ptp(width(support, phi)):.3f}", "mm")
+print(f"out of round, between the dotted circles: {np.ptp(np.hypot(*coin)):.3f} mm")
 figure
 
 # %% [markdown]
@@ -559,7 +562,7 @@ reveal(past_all, f"{', '.join(map(str, blind))}: as many as the coin has sides")
 # The V of 60° sees multiples of three and nothing else, and those three times too large. So no reading of a calliper or a V is a roundness.
 # It becomes one if somebody tells you the number of lobes; and whoever knows that, has already measured in another way.
 #
-# (The last row, 120°, misses none of these, but look at six.)
+# (The last row, 120°, misses none of these; but look at six, which it makes small, and turns hills into dales.)
 
 # %% [markdown]
 # ## 8 · Round, and no cylinder
@@ -651,6 +654,26 @@ reveal(calm, "root mean square: one point in two hundred has little weight there
 # since it looks odd is a decision, and whoever takes it writes it down. No formula knows dust from a burr.
 
 # %% [markdown]
+# Dust is rare, trembling is not. Now a *perfect* cylinder, by a probe that trembles by half a µm (standard deviation) each
+# time. Few places miss lobes, said section 6. So take 20, 200, 2000: what becomes of the cylindricity?
+
+# %%
+with_more_places = None  # "it goes to 0", "it stays" or "it grows"
+
+# %%
+for places in (20, 200, 2000):
+    at = 2.4 * np.arange(places), np.linspace(-30, 30, places)  # winding up round the part
+    trembling = np.random.default_rng(places).normal(0, 0.0005, places)
+    perfect = around(at[0], 20 + trembling, at[1])
+    print(f"{places:4} places on a perfect part: {1000 * dx.cylindricity(perfect).value:.2f} µm")
+reveal(with_more_places, "it grows, slowly and without end")
+
+# %% [markdown]
+# **Nobody ever measures 0.** A range keeps what is worst, and who asks more often hears worse. So neither few places nor many:
+# enough for the waves that matter, and a *filter* that takes the quicker ones away before the range is taken. For roundness
+# 50 waves a turn has long been the usual limit.
+
+# %% [markdown]
 # ## 10 · The limit: how short may a cylinder be?
 #
 # The last part is **oval**: radius 20.01 one way, 19.99 the other, all along. Roundness and cylindricity are 20 µm, clear enough.
@@ -665,17 +688,17 @@ in_the_end = None  # µm
 
 # %%
 def oval(apart):
-    """Two rings of 48 places on an oval bar."""
-    angle = 2 * np.pi * np.arange(48) / 48
+    """Two rings of 24 places on an oval bar."""
+    angle = 2 * np.pi * np.arange(24) / 24
     one = around(angle, 1, 0) * [20.01, 19.99, 0]
     return np.concatenate([one, one + (0, 0, apart)])
 
 
 print("   apart   least squares   minimum zone     its axis leans")
-for apart in (20, 1, 0.6, 0.4, 0.2, 0.1, 0.01):
-    squares, narrowest = both(oval(apart), dx.cylindricity)
-    axis = dx.cylindricity(oval(apart), method="minimum zone").form.axis
-    lean = np.degrees(np.arccos(min(1.0, abs(axis[2]))))
+for apart in (20, 1, 0.6, 0.4, 0.1, 0.01):
+    zones = [dx.cylindricity(oval(apart), method=method) for method in ("least squares", "minimum zone")]
+    squares, narrowest = (1000 * zone.value for zone in zones)
+    lean = np.degrees(np.arccos(min(1.0, abs(zones[1].form.axis[2]))))
     print(f"{apart:5} mm {squares:12.2f} µm {narrowest:11.2f} µm {lean:17.2f}°")
 reveal(in_the_end, "0")
 
@@ -729,6 +752,8 @@ with once_written():
 # (The last three without the probe's trembling.) Nobody has miscalculated. *A form error is a number and a sentence*: which ideal form, laid how, through which points. ISO 1101
 # says what the zone is: two planes, two concentric circles, two coaxial cylinders, as close as can be. ISO 12181 for roundness,
 # 12180 for cylindricity and 12781 for flatness say how to complete the sentence.
+#
+# Balls, cones and tori go the same way: `dx.sphericity`, `dx.conicity`, `dx.toricity`.
 #
 # To read on: A. B. Forbes, *Least-squares best-fit geometric elements*, NPL report DITC 140/89, by which this library fits.
 
