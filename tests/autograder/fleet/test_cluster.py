@@ -281,7 +281,7 @@ def test_a_scheduler_that_listens_to_the_network_is_refused_though_it_is_reached
 
 
 def test_a_scheduler_that_speaks_tls_and_listens_without_it_too_is_refused(cluster):
-    """`dask scheduler --protocol tls,tcp`, where Dask was told not to insist on TLS: the second door leads to all workers too."""
+    """`dask scheduler --protocol tls,tcp`, if Dask was told not to insist on TLS: the second door leads to the workers too."""
     doors = {"protocol": ["tls", "tcp"], "port": [0, 0], "dashboard": False, "dashboard_address": "127.0.0.1:0"}
     ca, key = (str(cluster.folder / "tls" / name) for name in ("ca.pem", "key.pem"))
     roles = {f"tls_{role}_{what}": of for role in ("scheduler", "client") for what, of in (("cert", ca), ("key", key))}
