@@ -303,17 +303,6 @@ def test_insertion_against_geomdl(seed):
     np.testing.assert_allclose(dx.insert_knot(curve, at).control_points, inserted.ctrlpts, atol=1e-12)
 
 
-@fixed
-@given(seeds)
-def test_elevation_against_splipy(seed):
-    """The control points are those that another library computes."""
-    splipy = pytest.importorskip("splipy", reason="splipy is not installed: uv sync --group oracles")
-    points = np.random.default_rng(seed).standard_normal((7, 3))
-    curve = dx.BSplineCurve(points, 4)
-    other = splipy.Curve(splipy.BSplineBasis(4, curve.knots), points).raise_order(1)
-    np.testing.assert_allclose(dx.elevate(curve).control_points, other.controlpoints, atol=1e-9)
-
-
 @few
 @given(seeds)
 def test_bezier_pieces(seed):

@@ -12,6 +12,7 @@ surface_factory, volume_factory = map(pytest.importorskip, ("splipy.surface_fact
 T = np.linspace(0, 1, 17)
 U, W = T[:, None], T[None, :]
 ATOL = 1e-12  # coordinates of size 1 to 10: a few hundred roundings
+SEEDS = pytest.mark.parametrize("seed", range(20))
 KNOTS = np.array([0, 0, 0, 0, 0.2, 0.5, 0.5, 1, 1, 1, 1])
 
 
@@ -113,3 +114,35 @@ def test_knots_degrees_and_parts_of_a_nurbs():
     for ours, theirs in zip(curve.split(0.3), (left, right), strict=True):
         np.testing.assert_allclose(ours(T), theirs(theirs.start(0) + T * (theirs.end(0) - theirs.start(0))), atol=ATOL)
     np.testing.assert_allclose(curve.segment(1, 0)(T), peer(curve).reverse()(T), atol=ATOL)
+
+
+@SEEDS
+def test_bezier_patches_of_mixed_degree(seed):
+    rng = np.random.default_rng(seed)
+    m, n = rng.integers(2, 7, 2)
+    net = rng.standard_normal((m, n, 3))
+    theirs = splipy.Surface(splipy.BSplineBasis(m), splipy.BSplineBasis(n), net.transpose(1, 0, 2).reshape(-1, 3))
+    np.testing.assert_allclose(dx.BezierPatch(net)(U, W), theirs(T, T), atol=ATOL)
+
+
+@SEEDS
+def test_nurbs_patches_and_their_derivatives(seed):
+    """splipy wants control points multiplied by their weights."""
+    rng = np.random.default_rng(seed)
+    m, n, k, l = 7, 6, 4, 3  # noqa: E741
+    knots_u, knots_w = (np.concatenate([[0] * o, np.sort(rng.random(c - o)), [1] * o]) for c, o in ((m, k), (n, l)))
+    net, weights = rng.standard_normal((m, n, 3)), rng.uniform(0.5, 2, (m, n))
+    patch = dx.NurbsPatch(net, weights, k, l, knots_u, knots_w)
+    lifted = np.concatenate([net * weights[..., None], weights[..., None]], axis=2).transpose(1, 0, 2).reshape(-1, 4)
+    theirs = splipy.Surface(splipy.BSplineBasis(k, knots_u), splipy.BSplineBasis(l, knots_w), lifted, rational=True)
+    u, w = np.sort(rng.random((2, 6)))
+    np.testing.assert_allclose(patch(u[:, None], w[None]), theirs(u, w), atol=ATOL)
+    np.testing.assert_allclose(patch.derivative(u[:, None], w[None], 1, 0), theirs.derivative(u, w, d=(1, 0)), atol=1e-10)
+
+
+@SEEDS
+def test_degree_elevation(seed):
+    points = np.random.default_rng(seed).standard_normal((7, 3))
+    curve = dx.BSplineCurve(points, 4)
+    theirs = peer(curve).raise_order(1)
+    np.testing.assert_allclose(dx.elevate(curve).control_points, theirs.controlpoints, atol=1e-9)

@@ -1,13 +1,11 @@
-"""Bilinear, ruled and Coons surfaces: printed values, boundaries, identities, splipy, and curves that do not meet."""
+"""Bilinear, ruled and Coons surfaces: printed values, boundaries, identities, and curves that do not meet."""
 
 import directrix as dx
 import numpy as np
 import pytest
-import splipy
 from directrix.errors import CornerError, CurveError, DegenerateError, NumberError, OrderError, ShapeError
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from splipy import surface_factory
 
 U, W = np.linspace(0, 1, 9)[:, None], np.linspace(0, 1, 8)[None, :]
 seeds = st.integers(0, 2**32 - 1)
@@ -67,24 +65,6 @@ def test_coons_is_two_ruled_less_the_bilinear(seed):
     for nu, nw in [(0, 0), (1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 1), (3, 0)]:
         a, b, c = (part.derivative(U, W, nu, nw) for part in parts)
         np.testing.assert_allclose(patch.derivative(U, W, nu, nw), a + b - c, atol=1e-12)
-
-
-@fixed
-@given(seeds)
-def test_coons_against_splipy(seed):
-    """splipy's edge_curves is the bilinearly blended Coons patch, made another way: the same points."""
-    rng = np.random.default_rng(seed)
-    p = rng.standard_normal((2, 2, 3))
-    polygon = [
-        np.array([a, *rng.standard_normal((2, 3)), b])
-        for a, b in [(p[0, 0], p[1, 0]), (p[0, 1], p[1, 1]), (p[0, 0], p[0, 1]), (p[1, 0], p[1, 1])]
-    ]
-    bottom, top, left, right = (splipy.Curve(splipy.BSplineBasis(4), points) for points in polygon)
-    peer = surface_factory.edge_curves(bottom, right, top, left)
-    patch = dx.Coons(*(dx.BezierCurve(points) for points in polygon))
-    np.testing.assert_allclose(patch(U, W), peer(U[:, 0], W[0]), atol=1e-13)
-    net = dx.coons_net(*polygon)
-    np.testing.assert_allclose(dx.BezierPatch(net)(U, W), patch(U, W), atol=1e-13)
 
 
 @fixed
