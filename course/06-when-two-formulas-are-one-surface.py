@@ -4,8 +4,8 @@
 # **You send out the drawing of a tube. What comes back is another file: other numbers, another form, and not one of yours among
 # them. Is it still your tube?**
 #
-# This chapter pulls a stocking over a leg, fools a grid of eighty-one samples, finds out where sixteen are enough and a thousand
-# are not, and ends with two rims that nobody can tell apart and a tube between them that has a waist.
+# This chapter pulls a stocking over a leg, fools a grid of eighty-one samples, finds out where sixteen are enough and a
+# thousand are not, and ends with two rims that nobody can tell apart and a tube between them that has a waist.
 #
 # It takes about two hours; after section 5 is a good place to stop for tonight. Guess before you look.
 
@@ -48,8 +48,8 @@ fine = np.linspace(0, 1, 97)
 # 4. one joined two circles by straight lines,
 # 5. one needed a file that holds splines only, and made a NURBS patch.
 #
-# All five are right: $x^2 + y^2 = 4$ everywhere, and $z$ runs from 0 to 5. Ask each of them for the point at $u = 1/4$, $w = 1/2$.
-# How many *different* points do you get?
+# All five are right: $x^2 + y^2 = 4$ everywhere, and $z$ runs from 0 to 5. Ask each of them for the point at $u = 1/4$,
+# $w = 1/2$. How many *different* points do you get?
 
 # %%
 different_points = None  # a number from 1 to 5
@@ -72,13 +72,14 @@ found = {tuple(np.round(form(0.25, 0.5), 9) + 0.0) for form in tubes.values()}
 reveal(different_points, f"{len(found)}: where a line is turned, u runs up and w goes round")
 
 # %% [markdown]
-# A hole at $u = 1/4$, $w = 1/2$ gets to different places, in one and the same tube. The word "surface" is a name for two things:
+# A hole at $u = 1/4$, $w = 1/2$ gets to different places, in one and the same tube. The word "surface" is a name for two
+# things:
 #
 # * the **set**: which points belong to it. A weight, a coat of paint, a collision ask for no more.
 # * the **map**: which point is called $(u, w)$. A texture, a tool path, a neighbour that is to be joined on ask for this one.
 #
-# Think of a leg and a printed stocking. The leg is the set, the print is the map. Here are one leg and two stockings; the colour is
-# the distance between the two points of the same $(u, w)$:
+# Think of a leg and a printed stocking. The leg is the set, the print is the map. Here are one leg and two stockings; the
+# colour is the distance between the two points of the same $(u, w)$:
 
 # %%
 turned = tubes["a line, turned"]
@@ -110,15 +111,16 @@ figure = plot.walk(pulled, [(0, 0.5), (1, 0.5)], steps=33)
 figure.update_layout(scene_camera_eye={"x": 1.75, "y": 1.0, "z": 0.8})
 
 # %% [markdown]
-# **Let it walk.** Left the orange lines crowd where the marker is slow; in the square they are even. No point of the tube has moved.
+# **Let it walk.** Left the orange lines crowd where the marker is slow. No point of the tube has moved.
 #
-# How much does a change of parameters do, at one place? Say the new parameters, seen from the old formula, move at the rate
-# $(a, b)$ when $u$ grows, and at $(c, d)$ when $w$ grows. Then the new tangents are mixed from the old:
+# How much does a change of parameters do, at one place? Let $u$ grow a little. The old formula is then asked at a place that
+# moves, $a$ times as fast along its first parameter, and $b$ times as fast along its second. When $w$ grows, let it be $c$ and
+# $d$. So the new tangents are mixed from the old:
 #
 # $$\tilde S_u = a\,S_u + b\,S_w \qquad \tilde S_w = c\,S_u + d\,S_w$$
 #
-# Multiply out $\tilde S_u \times \tilde S_w$. Any arrow times itself is 0, and an exchange costs a sign. What number is left in front of
-# $S_u \times S_w$? Write it.
+# Multiply out $\tilde S_u \times \tilde S_w$. Any arrow times itself is 0, and an exchange costs a sign. What number is left in
+# front of $S_u \times S_w$? Write it.
 
 
 # %%
@@ -159,22 +161,24 @@ def rates(change, u, w, h=1 / 64):
 
 # %%
 with once_written():
+    flipped = []
     for name, change in changes.items():
         (a, b), (c, d) = by = rates(change, 0.25, 0.625)
         place = change(0.25, 0.625)  # where the old formula is evaluated
         S_u, S_w = tube.derivative(*place, 1, 0), tube.derivative(*place, 0, 1)
         new = np.cross(a * S_u + b * S_w, c * S_u + d * S_w)
         holds(f"{name}: the factor is {factor(*by):4.1f}", new, factor(*by) * np.cross(S_u, S_w))
-    reveal(inside_out, "exchanged, and u backwards: the two with a factor below 0")
+        flipped += [name] if factor(*by) < 0 else []
+    reveal(inside_out, " and ".join(flipped) + ": those with a factor below 0")
 
 # %% [markdown]
 # Both backwards is two times inside out, and so it is right side out again.
 #
-# "Round twice" has the factor 2: the same points, each of them covered twice. Its area comes out twice as large. So even a *set* wants
-# to be counted.
+# "Round twice" has the factor 2: the same points, each of them covered twice. Its area comes out twice as large. So even a
+# *set* wants to be counted.
 #
-# And one trap. For $u^2$ the factor is $2u$, so on the edge $u = 0$ it is **0**. Nothing is wrong with the tube there. But the formula
-# for its normal says $0/0$, and a program that computes tool paths from it stops:
+# And one trap. For $u^2$ the factor is $2u$, so on the edge $u = 0$ it is **0**. Nothing is wrong with the tube there. But the
+# formula for its normal says $0/0$, and whoever needs a normal for a tool path has none:
 
 # %%
 with once_written():
@@ -186,29 +190,30 @@ with once_written():
 # %% [markdown]
 # ## 3 · Ask the judge
 #
-# Every card that you have seen in this course was written by a judge that never reads a formula. It asks for points, climbs down
-# a ladder, and stops at the first word that is true:
+# Every card that you have seen in this course was written by a judge that never reads a formula. It asks for points, climbs
+# down a ladder, and stops at the first word that is true:
 #
-# *identical · relabelled* ($u$ and $w$ exchanged or run backwards) *· other start · close · same set · covered* (several times) *·
-# part · more · moved · different*
+# *identical · relabelled* ($u$ and $w$ exchanged or run backwards) *· other start · close · same set · covered* (several times)
+# *· part · more · moved · different*
 #
-# Let it look at our changes. Which word will it find for "round twice"?
+# `asked(f, g)` puts the question to it: is $f$ what $g$ should be? Let it look at our changes. Which word will it find for
+# "round twice"?
 
 # %%
 word_for_twice = None  # one of the words
 
 # %%
 for name, change in changes.items():
-    tier, says = asked(lambda u, w, change=change: tube(*change(u, w)), tube)
-    print(f"{name}: {tier}", f"   {says}", sep="\n")
-reveal(word_for_twice, "covered")
+    word, says = asked(lambda u, w, change=change: tube(*change(u, w)), tube)
+    print(f"{name}: {word}", f"   {says}", sep="\n")
+reveal(word_for_twice, word)  # "round twice" is the last of them
 
 # %% [markdown]
 # ### A sheet of rubber
 #
-# Changes of parameters may mix $u$ and $w$ as they like. Here is a flat square of side 3, once as a line pushed along a line, once
-# as a Bezier patch. Its twelve outer control points lie evenly on the edges. The four inner ones we turn, as a block, about the
-# middle of the square, and leave them in its plane.
+# Changes of parameters may mix $u$ and $w$ as they like. Here is a flat square of side 3, once as a line pushed along a line,
+# once as a Bezier patch. Its twelve outer control points lie evenly on the edges. The four inner ones we turn, as a block,
+# about the middle of the square; later we spread them, too. They stay in its plane.
 #
 # By how many degrees can you turn them before the sheet has to fold?
 
@@ -218,30 +223,36 @@ turned_by = None  # 45, 90, 135 or "as far as you like"
 
 # %%
 def whirl(degrees, size=1.0):
-    """A flat square of side 3 with its four inner control points turned and spread about the middle."""
+    """A flat square of side 3 with its four inner control points turned, and spread, about the middle."""
     net = np.stack(np.broadcast_arrays(np.arange(4.0)[:, None], np.arange(4.0), 0.0), axis=-1)
     about = dx.Transform.rotate("z", np.radians(degrees)).matrix[:3, :3]
     net[1:3, 1:3] = (1.5, 1.5, 0) + size * (net[1:3, 1:3] - (1.5, 1.5, 0)) @ about.T
     return dx.BezierPatch(net)
 
 
+def least_factor(sheet):
+    """The least S_u × S_w anywhere, as a share of that of the even sheet; below 0 there is a fold."""
+    u, w = fine[:, None], fine
+    return np.cross(sheet.derivative(u, w, 1, 0), sheet.derivative(u, w, 0, 1))[..., 2].min() / 9
+
+
 square = dx.LinearSweep(dx.Line((0, 0, 0), (3, 0, 0)), direction=(0, 1, 0), distance=3)
-for degrees, size in ((0, 1), (45, 1), (90, 1), (180, 1), (180, 2), (180, 4), (180, 8), (180, 12)):
-    sheet = whirl(degrees, size)
-    by = sheet.derivative(fine[:, None], fine, 1, 0), sheet.derivative(fine[:, None], fine, 0, 1)
-    least = np.cross(*by)[..., 2].min() / 9
-    word = asked(sheet, square)[0]
-    print(f"turned by {degrees:3}°, spread {size:2}: least factor {least:5.2f}, {word}")
-reveal(turned_by, "as far as you like: even at 180°, each in the opposite corner, nothing folds")
 
 # %% fold=true
+print("turned  spread  least factor  the judge")
+for degrees, size in ((0, 1), (45, 1), (90, 1), (180, 1), (180, 2), (180, 3), (180, 8), (180, 12)):
+    sheet = whirl(degrees, size)
+    word = asked(sheet, square)[0]
+    print(f"{degrees:5}° {size:7}  {least_factor(sheet):12.2f}  {word}")
+reveal(turned_by, "as far as you like: even at 180°, each in the opposite corner, nothing folds")
+
 figure = go.Figure().update_layout(height=330, template="none", margin={"t": 10, "b": 10, "l": 10, "r": 10})
 figure.update_layout(
     paper_bgcolor=palette.CLEAR, plot_bgcolor=palette.CLEAR, font={"color": palette.INK, "family": palette.FONT}
 )
 figure.update_xaxes(visible=False, range=[-0.1, 10.3]).update_yaxes(visible=False, scaleanchor="x", range=[-0.6, 3.6])
 eighths = np.arange(9) / 8
-shown = ((90, 1, "turned by 90°"), (180, 1, "turned by 180°"), (180, 12, "180°, spread 12"))
+shown = ((90, 1, "90°"), (180, 1, "180°"), (180, 12, "180°, 12-fold"))
 for place, (degrees, size, name) in enumerate(shown):
     sheet = whirl(degrees, size)
     shift = np.array([3.6 * place, 0])
@@ -259,27 +270,29 @@ for place, (degrees, size, name) in enumerate(shown):
 words = (("━ along u", palette.U), ("━ along w", palette.W), ("● the four", palette.NET), ("● P₁₁", palette.MARK))
 text = "&nbsp;&nbsp;&nbsp;".join(f"<span style='color:{colour}'>{word}</span>" for word, colour in words)
 figure.add_annotation(x=5.1, y=-0.4, text=text, showarrow=False)
-figure.update_traces(hoverinfo="skip", showlegend=False)
+alt = "A square with its parameter lines, its inner control points turned by 90°, by 180°, and spread until it folds."
+figure.update_layout(meta={"alt": alt}).update_traces(hoverinfo="skip", showlegend=False)
 
 # %% [markdown]
-# **What to see.** At 90° a whirl, at 180° a pinch, and not one point of the square is missing or doubled. The control points have changed
-# places; the sheet has not folded. What proves it is the *factor*: as long as it is above 0, and the edges lie where they should,
-# every point is met once.
+# **What to see.** At 90° a whirl, at 180° a pinch, and not one point of the square is missing or doubled. The control points
+# have changed places; the sheet has not folded. What proves it is the *factor*: as long as it is above 0, and the edges lie
+# where they should, every point is met once.
 #
-# Spread the four wide enough, and the factor falls below 0. Now there are folds: some points are met more than once. It is still
-# the same square, and only the *count* gives it away.
+# Spread the four wide enough, and the factor falls below 0. Now there are folds: some points are met more than once. It is
+# still the same square, and only the *count* gives it away.
 
 # %% [markdown]
 # ## 4 · Nine times nine
 #
-# Most of what you wrote in these chapters was tested at the same places: $u$ and $w$ at 0, 1/8, 2/8 and so on, 81 in all. Put the fifth tube, the NURBS patch, to that test:
+# Most of what you wrote in these chapters was tested at the same places: $u$ and $w$ at 0, 1/8, 2/8 and so on, 81 in all. Put
+# the fifth tube, the NURBS patch, to that test:
 
 # %%
 splines = tubes["splines"]
 holds("81 places, and at each of them the same point", splines(u, w), tube(u, w))
 
 # %% [markdown]
-# Eighty-one times the same point, to the last digit. So is it the same map?
+# Eighty-one times the same point, to rounding. So is it the same map?
 
 # %%
 same_map = None  # "yes" or "no"
@@ -292,9 +305,9 @@ print(*asked(splines, tube), sep=": ")
 plot.view(splines, against=tube, names=("cosine and sine", "splines"))
 
 # %% [markdown]
-# **Read the stripes.** Dark along every eighth of $u$, bright half way between: the worst places lie exactly where our grid never
-# looked. This is no bad luck. The patch is made of four quarters, and by symmetry each of them is right at its ends and in its
-# middle. The grid and the surface have the same rhythm.
+# **Read the stripes.** Dark along every eighth of $u$, bright half way between: the worst places lie exactly where our grid
+# never looked. This is no bad luck. The patch is made of four quarters, and by symmetry each of them is right at its ends and
+# in its middle. The grid and the surface have the same rhythm.
 #
 # As a set of points the two are one tube. In between, one runs ahead and falls back, by turns:
 
@@ -309,8 +322,8 @@ print(f"the fastest is {speed.max() / speed.min():.3f} times the slowest")
 #
 # ## 5 · Fool the grid
 #
-# If a grid can be fooled by accident, it can be fooled on purpose. Here is the sail of chapter 3. Write a function `bump` that is
-# **0 at all 81 places** and not 0 between, of any kind: a product, a wave. We add it to the height of the sail.
+# If a grid can be fooled by accident, it can be fooled on purpose. Here is the sail of chapter 3. Write a function `bump` that
+# is **0 at all 81 places** and not 0 between, of any kind: a product, a wave. We add it to the height of the sail.
 #
 # It should be about 1 at its highest.
 
@@ -347,11 +360,12 @@ with once_written():
     display(plot.view(fake, points=dots, title="81 points of the sail, and not the sail"))
 
 # %% [markdown]
-# Every dot lies on both. A wave can even keep whole parameter lines, or all tangents at the dots (take the square of the sine). And
-# if you asked at more places, we would take a faster wave.
+# Every dot lies on both. A wave can even keep whole parameter lines, or all tangents at the dots (take the square of the sine).
+# And if you asked at more places, we would take a faster wave.
 #
-# The judge of this course knows that. Beside those 81 it asks at 64 places that lie on no grid, and at a few more. So does it find your fake
-# out? And can *it* be fooled? Below is the tube with a thorn, a fifth of the radius high, and narrower than a hundredth of the square.
+# The judge of this course knows that. Beside those 81 it asks at 64 places that lie on no grid, and at a few more. So does it
+# find your fake out? And can *it* be fooled? Below is the tube with a thorn, a fifth of the radius high, and narrower than a
+# hundredth of the square.
 
 # %%
 judge_is_fooled = None  # "never", "by the waves", "by the thorn" or "by both"
@@ -364,14 +378,17 @@ def thorny(u, w):
 
 
 with once_written():
+    fooled = []
     for name, one, other in (("waves", fake, sail), ("thorn", thorny, tube)):
-        print(f"{name}:", *asked(one, other), sep="\n   ")
+        word, says = asked(one, other)
+        print(f"{name}: {word}", f"   {says}", sep="\n")
+        fooled += [f"by the {name}"] if word == "identical" else []
     print(f"height of the thorn: {np.hypot(*thorny(0.47, 0.53)[:2]) - 2:.2f}")
-    reveal(judge_is_fooled, "by the thorn")
+    reveal(judge_is_fooled, " and ".join(fooled) or "never")
 
 # %% [markdown]
-# **Read what it says**, word by word: your surface *meets the reference at all 167 places compared*. That is true. It is also all
-# that anybody can know who only asks for points.
+# **Read what it says**, word by word: your surface *meets the reference at all 167 places compared*. That is true. It is also
+# all that anybody can know who only asks for points.
 #
 # For an arbitrary function **no number of samples is enough**. So how can sampling ever prove anything?
 #
@@ -388,7 +405,8 @@ with once_written():
 # *everywhere*. So sixteen places may do, if no equation repeats what the others have said. How many different ones there are is
 # called the **rank**.
 #
-# A thousand places on the diagonal $u = w$, or a thousand on the four edges: how many different equations are those on the edges?
+# A thousand places on the diagonal $u = w$, or a thousand on the four edges: how many different equations are those on the
+# edges?
 
 # %%
 rank_of_edges = None  # a number up to 16
@@ -412,6 +430,8 @@ a, b = np.random.default_rng(6).random((2, 1000))
 side, end = a, np.arange(1000) % 2  # somewhere along an edge, and which end the edge is at
 along_u = np.arange(1000) < 500
 edges = rank(np.where(along_u, side, end), np.where(along_u, end, side))
+print("   4 places, the corners:  rank", rank(end[:4], end[[0, 0, 1, 1]]))
+print("  81 places, 9 × 9:        rank", rank(np.repeat(u, 9), np.tile(w[0], 9)))
 print("  16 places, 4 × 4:        rank", rank(np.repeat(thirds, 4), np.tile(thirds, 4)))
 print("  16 places at random:     rank", rank(a[:16], b[:16]))
 print("1000 places, the diagonal: rank", rank(a, a))
@@ -419,11 +439,11 @@ print("1000 places, the edges:    rank", edges)
 reveal(rank_of_edges, int(edges))
 
 # %% [markdown]
-# **Sixteen well placed beat a thousand badly placed.** On the diagonal a bicubic is one curve of degree 6, seven unknowns. On the
-# edges it is four cubics that share their corners: $4 \cdot 4 - 4 = 12$.
+# **Sixteen well placed beat a thousand badly placed.** On the diagonal a bicubic is one curve of degree 6, seven unknowns. On
+# the edges it is four cubics that share their corners: $4 \cdot 4 - 4 = 12$.
 #
-# And the four that are missing? The four inner control points; in Hermite's form, the four *twists*. So two bicubics may agree along all
-# their edges, at as many places as you like, and differ inside.
+# And the four that are missing? The four inner control points; in Hermite's form, the four *twists*. So two bicubics may agree
+# along all their edges, at as many places as you like, and differ inside.
 #
 # Somebody turns a Hermite patch into a Bezier net and makes a mistake with a twist. First a patch whose twists are all 0:
 
@@ -444,8 +464,8 @@ wrong = mistakes["twist_sign_mixed"].formula
 plot.view(by(wrong, untwisted), against=by(task, untwisted), names=("right", "wrong"))
 
 # %% [markdown]
-# The same, to the last point: such data are **blind** to the mistake. Now with twists. Look *where* it is bright, then say **which
-# mistake** it was:
+# The same, to the last point: such data are **blind** to the mistake. Now with twists. Look *where* it is bright, then say
+# **which mistake** it was:
 #
 # * `"twist_forgotten"`: no twist at all
 # * `"twist_third"`: a third of the twist where a ninth was due
@@ -467,14 +487,15 @@ holds("edges u = 0 and u = 1", by(wrong, G)(edge[:, None], fine), by(task, G)(ed
 holds("edges w = 0 and w = 1", by(wrong, G)(fine[:, None], edge), by(task, G)(fine[:, None], edge))
 
 # %% [markdown]
-# Two bright spots, towards the two *mixed* corners. From $(0, 0)$ to $(1, 1)$ it stays dark: there a plus is right. And all four edges
-# agree to rounding: whoever checks a conversion at the corners, or along the edges, lets this one pass.
+# Two bright spots, towards the two *mixed* corners. From $(0, 0)$ to $(1, 1)$ it stays dark: there a plus is right. And all
+# four edges agree to rounding: whoever checks a conversion at the corners, or along the edges, lets this one pass.
 
 # %% [markdown]
 # ## 7 · What a conversion is
 #
-# The other way round is more useful still. A Hermite cubic and a Bezier cubic are both cubics; so *make* them agree at four places,
-# and they agree everywhere. With the four $t$ as rows, $F$ Hermite's functions and $B$ Bernstein's:
+# The other way round is more useful still. A Hermite cubic and a Bezier cubic are both cubics; so *make* them agree at four
+# places, and they agree everywhere. A row for each of the four $t$, a column for each function, $F$ Hermite's and $B$
+# Bernstein's:
 #
 # $$B(t)\,P = F(t)\,G \quad\text{so}\quad P = C\,G,\quad C = B(t)^{-1} F(t)$$
 #
@@ -511,8 +532,8 @@ with once_written():
     holds("a patch: the library's conversion", net, dx.to_bezier(dx.HermitePatch(G)).control_net)
 
 # %% [markdown]
-# **So here are the thirds** of chapter 4: the second row says $P_1 = p_0 + p_0'/3$. Nobody had to remember them; they follow from
-# being the same curve.
+# **So here are the thirds** of chapter 4: the second row says $P_1 = p_0 + p_0'/3$. Nobody had to remember them; they follow
+# from being the same curve.
 #
 # Every conversion between polynomial forms is such a matrix product, once along $u$ and once along $w$. Send the sail on a
 # journey through all of them:
@@ -528,8 +549,8 @@ holds("home again, with the same net", form.control_net, sail.control_net)
 # %% [markdown]
 # ## 8 · Exact on paper
 #
-# *Exact* was said of numbers on paper. A machine keeps sixteen digits. Take a random net of coordinates of size 1, turn it into powers
-# of $u$ and $w$, and back: on paper, nothing has happened.
+# *Exact* was said of numbers on paper. A machine keeps sixteen digits. Take a random net of coordinates of size 1, turn it into
+# powers of $u$ and $w$, and back: on paper, nothing has happened.
 #
 # For bicubics all was well. What is left of the sixteen digits at degree 40?
 
@@ -550,8 +571,8 @@ reveal(digits_left, f"{max(0, int(-np.log10(off)))}: what comes back is larger t
 # **Why?** A net of size 1 becomes coefficients beyond $10^{17}$, which have to cancel again, and a machine has forgotten their
 # last digits. The same surface on paper is another one in the machine.
 #
-# So a file should travel in the form in which it was made, or in a form that mixes: Bezier, B-spline, NURBS. In those all shares lie
-# between 0 and 1, and nothing has to cancel.
+# So a file should travel in the form in which it was made, or in a form that mixes: Bezier, B-spline, NURBS. In those all
+# shares lie between 0 and 1, and nothing has to cancel.
 
 # %% [markdown]
 # ## 9 · What cannot be converted
@@ -565,8 +586,9 @@ except dx.ConversionError as refused:
     print(refused)
 
 # %% [markdown]
-# *Nearly* it can be done, and that is how round things are drawn where only cubics are at hand: four of them, one for each quarter, from
-# $(1, 0)$ by $(1, c)$ and $(c, 1)$ to $(0, 1)$. The usual $c$ puts the middle on the circle: $c = \tfrac43(\sqrt2 - 1)$.
+# *Nearly* it can be done, and that is how round things are drawn where only cubics are at hand: four of them, one for each
+# quarter, from $(1, 0)$ by $(1, c)$ and $(c, 1)$ to $(0, 1)$. The usual $c$ puts the middle on the circle:
+# $c = \tfrac43(\sqrt2 - 1)$.
 #
 # Draw a shaft with a radius of 50 mm that way. By how many micrometres is it out of round?
 
@@ -588,14 +610,15 @@ best = tried[np.argmin([np.abs(out_of_round(c)).max() for c in tried])]
 for name, c in (("usual", usual), ("best", best)):
     off = out_of_round(c)
     print(f"{name} c = {c:.4f}: between {off.min():+.2e} and {off.max():+.2e} of the radius")
-reveal(micrometres, f"{50e3 * np.abs(out_of_round(usual)).max():.1f}")
+reveal(micrometres, f"{50e3 * np.abs(out_of_round(usual)).max():.1f} µm")
 
 # %% fold=true
 figure = go.Figure().update_layout(height=330, template="none", margin={"t": 20, "b": 50, "l": 80, "r": 20})
 figure.update_layout(
     paper_bgcolor=palette.CLEAR, plot_bgcolor=palette.CLEAR, font={"color": palette.INK, "family": palette.FONT}
 )
-figure.update_layout(legend={"orientation": "h", "x": 0.2, "y": 1.12})
+alt = "Two curves: how far a cubic quarter is out of round, for the usual control points and for the best."
+figure.update_layout(legend={"orientation": "h", "x": 0.2, "y": 1.12}, meta={"alt": alt})
 angles = np.degrees(np.arctan2(*(B(t) @ [[1, 0], [1, usual], [usual, 1], [0, 1]])[:, ::-1].T))
 for name, c, colour in (("usual c", usual, palette.YOURS), ("best c", best, palette.CURVE)):
     figure.add_scatter(x=angles, y=1e4 * out_of_round(c), mode="lines", name=name, line={"color": colour, "width": 3})
@@ -606,18 +629,19 @@ figure.update_yaxes(title="out of round,<br>10⁻⁴ of the radius", showgrid=Fa
 figure
 
 # %% [markdown]
-# **Outside all the way**, and by $2.7 \cdot 10^{-4}$ of the radius; whoever gives up the middle gets by with $2.0 \cdot 10^{-4}$, to both
-# sides. (S. Mortensen, *Approximate a circle with cubic Bézier curves*, works out that $c$.) On a circle of 1000 pixels
-# that is a quarter of a pixel. Whether 14 µm matter on a shaft, the tolerance on the drawing says.
+# **Outside all the way**, and by $2.7 \cdot 10^{-4}$ of the radius; whoever gives up the middle gets by with
+# $2.0 \cdot 10^{-4}$, to both sides. (S. Mortensen, *Approximate a circle with cubic Bézier curves*, works out that $c$.) On a
+# circle with a radius of 1000 pixels that is a quarter of a pixel. Whether 14 µm matter on a shaft, the tolerance on the
+# drawing says.
 #
-# So a tube has three answers: as polynomials *nearly* the set; as NURBS exactly the set, at an uneven speed; as cosine and sine the
-# set and the speed, but in no file that holds splines. Choose what may get lost, and say so.
+# So a tube has three answers: as polynomials *nearly* the set; as NURBS exactly the set, at an uneven speed; as cosine and sine
+# the set and the speed, but in no file that holds splines. Choose what may get lost, and say so.
 
 # %% [markdown]
 # ## 10 · The limit: sameness is not inherited
 #
-# "My customers only need the set." Then they must never build on it. Take the two rims of our tube and join them by straight lines.
-# First the upper rim as it is. Then the *same* upper rim, run by $u^2$: not one point of either rim has changed.
+# "My customers only need the set." Then they must never build on it. Take the two rims of our tube and join them by straight
+# lines. First the upper rim as it is. Then the *same* upper rim, run by $u^2$: not one point of either rim has changed.
 #
 # What is the least radius of the second surface?
 
@@ -639,8 +663,8 @@ reveal(least_radius, round(radius.min(), 3))
 plot.view(waist, against=dx.Ruled(foot, rim), names=("the rim", "the same rim"))
 
 # %% [markdown]
-# **The rims are the same sets; what is built on them is not.** A ruled surface joins equal *parameters*. Where the upper rim lags by a
-# quarter of a turn, the lines cut across the inside, and the tube has a waist.
+# **The rims are the same sets; what is built on them is not.** A ruled surface joins equal *parameters*. Where the upper rim
+# lags by a quarter of a turn, the lines cut across the inside, and the tube has a waist.
 #
 # That was a coarse pace. Take the NURBS circle, the one with the perfect points and the speed that nobody sees:
 
@@ -655,22 +679,22 @@ except dx.ConversionError as refused:
     print("refused:", refused)
 
 # %% [markdown]
-# A waist of some millionths, and yet no tube any more, and nobody has made an error: each of two exact circles was handed on in good
-# faith. That is why the library refuses here and says why, where it could have answered with *nearly*.
+# A waist of some millionths, and yet no tube any more, and nobody has made an error: each of two exact circles was handed on in
+# good faith. That is why the library refuses here and says why, where it could have answered with *nearly*.
 #
 # ## The answer
 #
 # Is it still your tube? Ask back: *for what?*
 #
-# * To weigh, paint or cast it: the same **set** is enough, covered once.
+# * To weigh it or to paint it: the same **set** is enough, covered once.
 # * To build on it: the same **map**, or a change of parameters that you know.
-# * And *how do you know?* From samples alone you do not. From samples *and a degree* you do.
+# * And *how do you know?* From samples alone you do not. From samples, well placed, *and a degree* you do.
 
 # %% [markdown]
 # ## Where to go from here
 #
 # Convert forms yourself, by hand and both ways: [A5 · Hermite and points](../A5/hermite-and-points.ipynb), [A6 ·
-# Bezier](../A6/bezier.ipynb). Make the quarter tube that is exact in [A7 · B-spline and NURBS](../A7/bspline-and-nurbs.ipynb). And in
-# the last task of [A9 · Further](../A9/further.ipynb) you take the judge's seat: two black boxes, and a word to find.
+# Bezier](../A6/bezier.ipynb). Make the quarter tube that is exact in [A7 · B-spline and NURBS](../A7/bspline-and-nurbs.ipynb).
+# And in the last task of [A9 · Further](../A9/further.ipynb) you take the judge's seat: two black boxes, and a word to find.
 #
 # When a card next tells you *same set* and not *identical*, you know what it has looked at, and what it has not.
