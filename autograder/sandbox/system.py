@@ -23,7 +23,7 @@ AT_FDCWD, AT_EMPTY_PATH, AT_RECURSIVE = -100, 0x1000, 0x8000
 OPEN_TREE_CLONE, MOVE_MOUNT_F_EMPTY_PATH = 1, 4
 MOUNT_ATTR_RDONLY, MOUNT_ATTR_NOSUID = 1, 2
 
-PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, PR_GET_TID_ADDRESS, PR_SET_NAME, PR_SET_PDEATHSIG = 38, 22, 40, 15, 1
+PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, PR_GET_TID_ADDRESS, PR_SET_NAME, PR_SET_PDEATHSIG, PR_SET_DUMPABLE = 38, 22, 40, 15, 1, 4
 SECCOMP_MODE_FILTER = 2
 
 CLONE_NUMBER = {"x86_64": 56, "aarch64": 220}
@@ -102,6 +102,11 @@ def no_new_privileges() -> None:
 def die_with_parent() -> None:
     """PR_SET_PDEATHSIG: be killed when the thread that started this process ends."""
     _check(libc.prctl(PR_SET_PDEATHSIG, 9, 0, 0, 0), "pdeathsig")
+
+
+def leave_no_core() -> None:
+    """PR_SET_DUMPABLE 0: no core is written of this process, whatever its limits, and no other may look into it."""
+    _check(libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0), "dumpable")
 
 
 def drop_capabilities() -> None:

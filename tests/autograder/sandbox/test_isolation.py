@@ -1,11 +1,14 @@
 """Every attack is stopped inside and works outside: as root and as an ordinary user, at level A and at A-."""
 
 import json
+import re
 import sys
+from pathlib import Path
 
 import pytest
 
 from autograder import doctor
+from autograder.sandbox import Policy, Sandbox
 
 # What an ordinary user may not do anyway, so that its being stopped proves nothing there.
 ONLY_ROOT = {"become_root", "write_packages"}
@@ -75,3 +78,16 @@ def test_the_sandbox_tests_pass_for_an_ordinary_user(as_ordinary_user, tmp_path)
     done = as_ordinary_user(command, tmp_path)
     assert done.returncode == 0, done.stdout[-5000:] + done.stderr[-2000:]
     assert " passed" in done.stdout
+
+
+@pytest.mark.parametrize("level", ["A", "A-"])
+def test_if_memory_runs_short_a_notebook_goes_first_and_whatever_ends_it_leaves_no_core(level):
+    """A program that takes cores for the whole machine, as many systems have one, asks for them also where their limit is 0."""
+    with Sandbox(Policy(packages=(), preload=()), level) as box, box.open() as session:
+        (pid,) = re.findall(r"^Pid:\s+(\d+)$", Path(f"/proc/self/fdinfo/{session._process._pidfd}").read_text(), re.MULTILINE)
+        process = Path(f"/proc/{pid}")
+        assert process.joinpath("oom_score_adj").read_text() == "1000\n"
+        assert re.search(r"^Max core file size +1 +1 ", process.joinpath("limits").read_text(), re.MULTILINE)
+        assert process.joinpath("stat").stat().st_uid == 0  # of a process that may be dumped it is the process's own user
+        here = session.run_cell("import psutil; open('/proc/self/status').read()[:5], psutil.Process().memory_info().rss > 0")
+        assert here.status == ("ok" if level == "A" else "error")  # where there is a /proc, it can be read as before
