@@ -39,7 +39,7 @@ def around(angle, distance, z):
 
 def paper(height, **names):
     """An empty sheet for a drawing in the plane; above it what will be drawn, each in its colour."""
-    words = [f"<span style='color:{colour}'>━ {name.replace('_', ' ')}</span>" for name, colour in names.items()]
+    words = [f"<span style='color:{colour}'>━_{name}</span>".replace("_", "&nbsp;") for name, colour in names.items()]
     title = {"text": "&nbsp;&nbsp; ".join(words), "x": 0.5, "y": 0.96, "font": {"size": 13}}
     figure = go.Figure().update_layout(height=height, template="none", showlegend=False, title=title)
     figure.update_layout(margin={"t": 40 if names else 10, "b": 50, "l": 60, "r": 20})
@@ -230,7 +230,7 @@ print("\n" + mistakes["three_points"].hint)
 #
 # * **Minimum zone**: lean the two planes until they are as close as can be. This is what ISO 1101 means.
 # * **Least squares**: lay the plane for which the sum of the *squared* distances is least, then take the range. Most
-#   measuring machines do it: it is quick, and it is sure to end.
+#   measuring machines do it: it is quick, and one stray point hardly moves the plane.
 #
 # Eleven places along a rail, seen from the side. Is the least-squares zone wider than the other, as wide, or narrower?
 
@@ -355,8 +355,8 @@ reveal(waves, "once: it is 0.08 cos θ − 0.06 sin θ, to within less than a µ
 figure
 
 # %% [markdown]
-# So a record has *names* for its parts. Constant: the **size**. One wave a turn: the **place**. Neither is form. From two waves
-# on (oval), three (our part), and so on, it is form.
+# So the parts of a record have names. A constant: the **size**. One wave a turn: the **place**.
+# Neither is form. Two waves (oval), three (our part), and more: that is form.
 #
 # A circle has three numbers, and they take away just these: find $c_0, c_1, c_2$ so that
 #
@@ -393,8 +393,9 @@ with once_written():
     holds("the same as the library's cylinder", deviations(x, y), dx.cylindricity(pair).residuals[:25])
 
 # %% [markdown]
-# **Roundness** is the range of these, for one section at a time: a zone between two concentric circles in one plane, says ISO 1101. What must be said besides is a matter of ISO 12181: which reference circle (least squares, minimum zone, the
-# smallest around, the largest inside) and which waves a filter lets through.
+# **Roundness** is the range of these, for one section at a time: a zone between two concentric circles in one plane, says ISO
+# 1101. What must be said besides is a matter of ISO 12181: which reference circle (least squares, minimum zone, the smallest
+# around, the largest inside) and which waves a filter lets through.
 #
 # A good place to stop for tonight. Tomorrow: how to measure a part and not see it.
 
@@ -455,8 +456,8 @@ reveal(hopeless, "4, always; and 6, if it starts badly")
 # luck from ten. The rule behind it: at $m$ places the waves $n$ and $m - n$ look alike. So take clearly more places than
 # twice the waves that you fear, and rather an odd number.
 #
-# Leave points away from a cloud that you have. The minimum zone can then only shrink: what held all of them holds the rest. Is that
-# also true of least squares?
+# Leave points away from a cloud that you have. The minimum zone can then only shrink: what held all of them holds the rest. Is
+# that also true of least squares?
 
 # %%
 squares_too = None  # "yes" or "no"
@@ -540,8 +541,9 @@ figure
 past_all = None  # a number of lobes, or "none"
 
 # %% [markdown]
-# A lobe under a flank lifts the part. The flanks touch at $90° + \alpha/2$ to both sides of the gauge, where $\alpha$ is the angle
-# of the V, and a lobe of height $\varepsilon$ under both lifts it by $\varepsilon / \sin(\alpha/2)$. So the gauge shows $n$ lobes
+# A small lobe under a flank lifts the part. The flanks touch at $90° + \alpha/2$ to both sides of the gauge, where $\alpha$ is
+# the angle of the V, and a lobe of height $\varepsilon$ under both lifts it by $\varepsilon / \sin(\alpha/2)$. So the gauge
+# shows $n$ lobes
 #
 # $$1 + \frac{\cos\, n(90° + \alpha/2)}{\sin(\alpha/2)}$$
 #
@@ -559,60 +561,59 @@ blind = [n for i, n in enumerate(lobe) if not any(shown[alpha][i] for alpha in (
 reveal(past_all, f"{', '.join(map(str, blind))}: as many as the coin has sides")
 
 # %% [markdown]
-# The V of 60° sees multiples of three and nothing else, and those three times too large. So no reading of a calliper or a V is a roundness.
-# It becomes one if somebody tells you the number of lobes; and whoever knows that, has already measured in another way.
+# The V of 60° sees multiples of three and nothing else, and those three times too large. So no reading of a calliper or a V is
+# a roundness. It becomes one if somebody tells you the number of lobes; and whoever knows that, has already measured in
+# another way.
 #
 # (The last row, 120°, misses none of these; but look at six, which it makes small, and turns hills into dales.)
 
 # %% [markdown]
 # ## 8 · Round, and no cylinder
 #
-# Go back to the whole part. Here are three, and *every section of each is a perfect circle*. Their deviations are 10 µm,
-# drawn 300 times too large: a bent one, a tapered one, a barrel. Roundness 0 everywhere. Which of them has the worst
-# cylindricity, and how much?
+# Back to the whole part. Here are three others, and *every section of each is a perfect circle*. One is bent by 10 µm, one is
+# tapered by 10 µm in radius from end to end, one is a barrel, 10 µm thicker in the middle. Roundness 0, everywhere. Which of
+# them has the worst cylindricity, and how much?
 
 # %%
 worst_of_three = None  # "bent", "tapered" or "barrel", and how many µm
 
 # %% fold=true
-
-
-def round_part(name, magnified):
-    """One of the three, whose deviations are drawn so many times too large."""
-
-    def points(u, w):
-        s, size = 2 * w - 1, 0.010 * magnified
-        radius = 20 + {"bent": 0, "tapered": size * s / 2, "barrel": size * (1 - s**2)}[name]
-        return around(2 * np.pi * u, radius, 30 * s) + (size * (1 - s**2) * (name == "bent"))[..., None] * [1, 0, 0]
-
-    return points
-
-
-def aside(f, far):
-    return lambda u, w: f(u, w) + [far, 0, 0]
-
-
-names = ("bent", "tapered", "barrel")
-left_and_right = [aside(round_part("bent", 300), -55), aside(round_part("barrel", 300), 55)]
-scene = plot.view(round_part("tapered", 300), also=left_and_right, title="bent · tapered · barrel")
-scene.update_layout(scene_camera={"eye": {"x": 0.0, "y": -1.6, "z": 0.3}, "projection": {"type": "orthographic"}})
-scene.update_traces(lighting={"ambient": 0.9, "diffuse": 0.3}, selector={"type": "surface"})
-sizes = {axis: np.ptp(scene.layout.scene[f"{axis}axis"].range) / 50 for axis in "xyz"}
-scene.update_scenes(aspectmode="manual", aspectratio=sizes)
-scene.update_scenes(xaxis_visible=False, yaxis_visible=False, zaxis_visible=False)
+shapes = {  # radius and sideways shift, at the heights -30 to 30: s from -1 to 1
+    "bent": lambda s: (20 + 0 * s, 0.010 * (1 - s**2)),
+    "tapered": lambda s: (20 + 0.005 * s, 0 * s),
+    "barrel": lambda s: (20 + 0.010 * (1 - s**2), 0 * s),
+}
+figure = paper(330, the_part_from_the_side=palette.CURVE, its_narrowest_zone=palette.REFERENCE)
+figure.update_layout(margin={"l": 10, "r": 10, "b": 10})
+s, turn = np.linspace(-1, 1, 41), 2 * np.pi * np.arange(24) / 24
 report = ""
-for name in names:
-    points = round_part(name, 1)(np.arange(25)[:, None] / 25, np.linspace(0, 1, 9)).reshape(-1, 3)
-    squares, narrowest = both(points, dx.cylindricity)
+for place, (name, shape) in enumerate(shapes.items()):
+    radius, shift = (value[::5, None] for value in shape(s))
+    points = around(turn, radius, 30 * s[::5, None]) + shift[..., None] * [1, 0, 0]
+    squares, narrowest = both(points.reshape(-1, 3), dx.cylindricity)
     report += f"{name:8} cylindricity: least squares {squares:5.2f} µm, minimum zone {narrowest:5.2f} µm\n"
+    zone = dx.cylindricity(points.reshape(-1, 3), method="minimum zone")
+    for side in (-1, 1):
+        radius, shift = shape(s)
+        off = side * (radius - 20) + shift
+        edges = side * (zone.form.radius - 20 + np.array([-1, 1]) * zone.value / 2) + zone.form.point[0]
+        box = {"fillcolor": palette.REFERENCE, "opacity": 0.35, "line": {"width": 0}, "y0": -30, "y1": 30, "layer": "below"}
+        figure.add_shape(x0=78 * place + 20 * side + 400 * edges[0], x1=78 * place + 20 * side + 400 * edges[1], **box)
+        draw(figure, 78 * place + 20 * side + 400 * off, 30 * s, palette.CURVE)
+    for end in (-1, 1):
+        radius, shift = shape(end)
+        ends = np.array([-1, 1]) * (20 + 400 * (radius - 20)) + 400 * shift
+        draw(figure, 78 * place + ends, (30 * end, 30 * end), palette.CURVE)
+    figure.add_annotation(x=78 * place, y=0, text=f"{name}<br>× 400", showarrow=False, font={"size": 14})
+figure.update_xaxes(visible=False).update_yaxes(visible=False, scaleanchor="x")
 print(report)
 reveal(worst_of_three, "none: 10 µm each")
-scene
+figure
 
 # %% [markdown]
-# **The zone cannot tell them apart.** One number for a part that needs a new tailstock, one for a part that was bent in
-# hardening, one for a part that gave way under the tool. (Least squares makes more of the bent one, as its points are not spread
-# evenly about the zone.)
+# **The number cannot tell them apart.** It is the same for a bar that was bent in hardening, for one turned with the tailstock
+# off its line, and for one that gave way in the middle under the tool. (Least squares makes more of the bent one: most of its
+# rings lie towards one side of the zone.)
 #
 # What does hold: cut the narrowest zone across its axis, and you get two concentric circles, just as far apart. So in every
 # section *roundness is at most cylindricity*. Not the other way round:
@@ -639,8 +640,8 @@ away = cloud[88] - a - (cloud[88] - a) @ k * k
 dusty[88] += 0.030 * away / np.linalg.norm(away)
 for name, points in (("clean", cloud), ("dusty", dusty)):
     squares, narrowest = both(points, dx.cylindricity)
-    print(f"{name}: least squares {squares:.2f} µm, minimum zone {narrowest:.2f} µm,", end=" ")
-    print(f"root mean square {1000 * dx.cylindricity(points).rms:.2f} µm")
+    rms = 1000 * dx.cylindricity(points).rms
+    print(f"{name}: least squares {squares:.2f}, minimum zone {narrowest:.2f}, root mean square {rms:.2f} µm")
 most = np.sort(1000 * dx.cylindricity(dusty).residuals)[:-6:-1]
 print("what sticks out most, µm:", ", ".join(f"{one:.1f}" for one in most))
 reveal(calm, "root mean square: one point in two hundred has little weight there")
@@ -676,9 +677,9 @@ reveal(with_more_places, "it grows, slowly and without end")
 # %% [markdown]
 # ## 10 · The limit: how short may a cylinder be?
 #
-# The last part is **oval**: radius 20.01 one way, 19.99 the other, all along. Roundness and cylindricity are 20 µm, clear enough.
-# Two rings are probed, one above the other, and cylindricity is asked for, with a fitted axis. Somebody is in a hurry and
-# probes the second ring hardly above the first.
+# The last part is **oval**: radius 20.01 one way, 19.99 the other, all along. Roundness and cylindricity are 20 µm, clear
+# enough. Two rings are probed, one above the other, and cylindricity is asked for, with a fitted axis. Somebody is in a hurry
+# and probes the second ring hardly above the first.
 #
 # Let their distance go to 0. What is reported then?
 
@@ -703,9 +704,9 @@ for apart in (20, 1, 0.6, 0.4, 0.1, 0.01):
 reveal(in_the_end, "0")
 
 # %% [markdown]
-# **What happened?** Cut a perfect cylinder aslant: the section is an oval. So *every oval ring lies on a perfect cylinder*, one
-# that leans, here by $\arccos(19.99/20.01) = 2.56°$. As long as the second ring is far away, leaning costs more than it gains.
-# When it is close, the best cylinder tips over, and takes the whole error with it.
+# **What happened?** Cut a perfect cylinder aslant: the section is an ellipse. And our oval is one. So *a single oval ring lies
+# on a perfect cylinder*, one that leans, here by $\arccos(19.99/20.01) = 2.56°$. While the second ring is far away, leaning
+# costs more than it gains. When it is close, the best cylinder tips over, and takes the whole error with it.
 #
 # (At 0.6 mm look twice: least squares leans already, and reports *more* than 20. It makes squares small, not zones.)
 #
@@ -723,8 +724,9 @@ print(f"about the axis that the drawing gives: {1000 * about_z.value:.2f} µm")
 # A **given axis** cannot tip over. (Strictly that is no longer a form error: with a datum axis the drawing would say *total
 # run-out*.)
 #
-# All the way the answer was right, for the question that was asked. In chapter 1 a torus became a sphere, and the rule did not
-# go along. Here a cylinder became a circle, and the *question* did not go along: a ring has no axis to be measured from.
+# All the way the answer was right, for the question that was asked. In chapter 1 a torus became a sphere, and the
+# topology did not go along. Here a cylinder became a circle, and the *question* did not: a ring has no axis to be measured
+# from.
 
 # %% [markdown]
 # ## The answer
@@ -749,9 +751,10 @@ with once_written():
         print(f"{name:36}{value:7.1f} µm")
 
 # %% [markdown]
-# (The last three without the probe's trembling.) Nobody has miscalculated. *A form error is a number and a sentence*: which ideal form, laid how, through which points. ISO 1101
-# says what the zone is: two planes, two concentric circles, two coaxial cylinders, as close as can be. ISO 12181 for roundness,
-# 12180 for cylindricity and 12781 for flatness say how to complete the sentence.
+# (The last three without the probe's trembling.) Nobody has miscalculated. *A form error is a number and a sentence*: which
+# ideal form, laid how, through which points. ISO 1101 says what the zone is: two planes, two concentric circles, two coaxial
+# cylinders, as close as can be. ISO 12181 for roundness, 12180 for cylindricity and 12781 for flatness say how to complete the
+# sentence.
 #
 # Balls, cones and tori go the same way: `dx.sphericity`, `dx.conicity`, `dx.toricity`.
 #
