@@ -8,7 +8,8 @@ inherits from (``c.Execute.timeout``, ``c.ExecutePreprocessor.timeout``). Our ow
     c.Directrix.salt = "surfaces 2027"           # public word for numbers of one's own; not set: one that the secret gives
     c.Sandbox.tests = "calibrated"               # ordinary test cells apart from learners' code where they can be; or insist:
                                                  # "apart", "shared"
-    c.Sandbox.withhold = ["answers"]             # modules that test cells may import and learners may not
+    c.Sandbox.withhold = ["answers"]             # modules that test cells may import and learners may not;
+                                                 # one beside the notebook is not handed out by `directrix release`
     c.Sandbox.engine = {"ps3": "jupyter"}        # notebooks that need a real Jupyter kernel: slower, and its test cells have
                                                  # marks only where they are exercise cells or run apart; or one for all
 """

@@ -12,7 +12,7 @@ import re
 import secrets
 import shutil
 import sysconfig
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,7 @@ from autograder.course import Course
 from autograder.errors import CourseError, DirectrixError, SubmissionError
 from autograder.notebook import source
 from autograder.notebook.submission import parse
-from autograder.sandbox import ahead
+from autograder.sandbox import ahead, packages
 
 CONFIG = '''"""An nbgrader course that Directrix grades. Everything that nbgrader's own documentation says holds here too."""
 
@@ -132,6 +132,7 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
         if said.endswith("Canceled"):  # nbgrader's word for Ctrl-C
             raise KeyboardInterrupt
         raise CourseError(f"nbgrader could not release {name}: {said}")
+    _keep_back(released, found.withhold)
     if own is not None and with_exercises:
         _put_beside(own, released / catalogue.BESIDE / own.folder.name)
     _expect_grading(found, name)
@@ -141,6 +142,13 @@ def release(course: Path, name: str, *, with_exercises: bool = False) -> Path:
 def _folder(course: Path, found: Course, step: str, name: str) -> Path:
     """The instructor's folder of a step, written from where the course was named."""
     return course / os.path.relpath(found.path(step, ".", name), found.folder)
+
+
+def _keep_back(released: Path, modules: Sequence[str]) -> None:
+    """Take out modules that learners may not import, which nbgrader released as it does every file."""
+    there = {path.relative_to(released).as_posix(): b"" for path in released.rglob("*") if path.is_file()}
+    for name in there.keys() - packages.without(there, modules).keys():
+        (released / name).unlink()
 
 
 def _expect_grading(course: Course, name: str) -> None:

@@ -13,6 +13,7 @@ from autograder.exercise import Exercise
 from autograder.notebook.told import handed_over
 from autograder.sandbox import Limits, Policy, Sandbox
 from autograder.sandbox.kernel import KernelRun, run_notebook
+from autograder.sandbox.packages import installed
 
 Packages = tuple[str, ...] | Literal["all"]
 ENVIRONMENT = {"NBGRADER_EXECUTION": "autograde"}
@@ -28,7 +29,8 @@ def needs(exercises: Iterable[Exercise], packages: Packages, withhold: tuple[str
     if packages == "all" or not (posed or packages):
         return Policy(packages="all") if posed or draws else Policy(packages="all", preload=())
     allowed = [package for exercise in posed for package in exercise.allow]
-    return Policy(packages=tuple(dict.fromkeys([*BASIC, *packages, *allowed, *withhold])))
+    withheld = [module for module in withhold if installed(module)]  # others lie beside the notebook, or are Python's own
+    return Policy(packages=tuple(dict.fromkeys([*BASIC, *packages, *allowed, *withheld])))
 
 
 def limits(timeout: float | None, *, exercises: bool) -> Limits:

@@ -26,9 +26,9 @@ from autograder.sandbox.session import plain_name
 IGNORE = (".ipynb_checkpoints", "*.pyc", "__pycache__", "feedback")  # nbgrader's own default
 MAX_DEPTH = 12
 MAX_CONTAINERS = 2_000_000
-# formgrader writes ids into its pages as they are
-PLAIN_ID = re.compile(r"[^\x00-\x1f\x7f<>&\"'`\\\ud800-\udfff]{1,128}")
-NO_ID = "is no student's id: that has up to 128 letters, digits, blanks and signs, but none of < > & \" ' ` \\"
+# formgrader writes ids into its pages as they are, between double quotes
+PLAIN_ID = re.compile(r"[^\x00-\x1f\x7f<>&\"`\\\ud800-\udfff]{1,128}")
+NO_ID = "is no student's id: that has up to 128 letters, digits, blanks and signs, but none of < > & \" ` \\"
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Literal
 
 from autograder.errors import IsolationError, SandboxError
-from autograder.sandbox import ahead, bytecode
+from autograder.sandbox import ahead, bytecode, packages
 from autograder.sandbox.launcher import Launched, launch
 from autograder.sandbox.policy import Limits, Policy
 from autograder.sandbox.process import Process
@@ -110,7 +110,8 @@ class Sandbox:
         seed : int
             Where ``random`` and ``numpy.random`` start.
         withhold : sequence of str
-            Top-level modules that this notebook finds neither to import nor to read, though the policy shows them. Level A.
+            Top-level modules that this notebook finds neither to import nor to read, though the policy shows them, or they are
+            among the files. Level A.
         peer : socket, optional
             Its socket to another notebook's process: see :meth:`pair`.
 
@@ -121,6 +122,7 @@ class Sandbox:
         """
         limits = limits or Limits()
         content = _read_folder(Path(files), limits) if isinstance(files, str | Path) else dict(files or {})
+        content = packages.without(content, withhold)
         size = sum(map(len, content.values()))
         if size > limits.scratch or len(content) > limits.files or any(len(data) > limits.file for data in content.values()):
             raise SandboxError(
@@ -147,7 +149,7 @@ class Sandbox:
     ) -> tuple[Session, Session]:
         """Two fresh processes, the learner's and one for the tests, with a socket between them that nobody else holds.
 
-        Both find the same files; ``withhold`` holds for the learner's. See :meth:`Session.run_apart`.
+        Both find the same files and modules, but for what ``withhold`` takes from the learner's. See :meth:`Session.run_apart`.
         """
         ends = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
         with ends[0], ends[1]:

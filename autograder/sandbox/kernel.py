@@ -101,7 +101,8 @@ def run_notebook(
         watched = _Watched(process, ours, limits)
         run = KernelRun()
         try:
-            request = (tuple((files or {}).items()), tuple((environment or {}).items()), tuple(sources), _settings(limits))
+            beside = tuple(packages.without(files or {}, withhold).items())
+            request = (beside, tuple((environment or {}).items()), tuple(sources), _settings(limits))
             watched.ask(request)
             watched.answers(run, len(sources))
         except _Over as over:

@@ -7,7 +7,7 @@ import importlib.metadata
 import importlib.util
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from packaging.requirements import Requirement
@@ -19,6 +19,7 @@ ALWAYS = ("numpy", "ipython")  # what running a notebook takes
 ALSO = {"plotly": ("nbformat",)}  # asked for at run time, by plotly's renderers
 WITHHELD = ("directrix", "autograder")
 NEVER = ("__pycache__", "bin", "..")
+CODE = (".py", ".pyc", ".so")
 FIELD = "Requires-Dist:"
 OF_EXTRA = re.compile(r"""\bextra\s*==\s*(["'])[^"']+\1""")  # only with an extra that is not asked for here
 
@@ -63,6 +64,14 @@ def _distribution(name: str, *, asked: bool) -> importlib.metadata.Distribution 
     )
 
 
+def installed(name: str) -> bool:
+    """Whether a package or module of that name is installed, so that it can be allowed; one of Python's own is always there."""
+    try:
+        return _distribution(name, asked=True) is not None
+    except SandboxError:
+        return False
+
+
 def _required(distribution: importlib.metadata.Distribution) -> Iterable[str]:
     head, _, _ = (distribution.read_text("METADATA") or "").partition("\n\n")  # all of it takes an e-mail's reader long
     said = [line.removeprefix(FIELD) for line in head.splitlines() if line.startswith(FIELD)]
@@ -105,3 +114,16 @@ def withheld(folder: Path) -> list[Path]:
     """What of a whole site-packages folder stays hidden: directrix, autograder, and every list of paths."""
     hidden = [path for path in folder.iterdir() if path.name.lower().startswith(WITHHELD) or path.suffix == ".pth"]
     return [*hidden, *(path for path in folder.glob("__editable__*"))]
+
+
+def without(files: Mapping[str, bytes], modules: Sequence[str]) -> dict[str, bytes]:
+    """Files beside a notebook without those of these modules: ``answers.py``, what is compiled of it, ``answers/``.
+
+    A file of data of that name stays.
+    """
+    return {path: data for path, data in files.items() if not any(_belongs(path, module) for module in modules)}
+
+
+def _belongs(path: str, module: str) -> bool:
+    *folders, name = path.split("/")
+    return module in folders or (name.partition(".")[0] == module and name.endswith(CODE))

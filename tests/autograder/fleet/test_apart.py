@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from autograder import fleet
+from autograder import authoring, fleet
 from autograder.errors import CourseError
 from autograder.notebook import apart
 
@@ -223,6 +223,34 @@ def test_a_withheld_module_serves_the_tests_and_not_the_learners(tmp_path):
     graded = fleet.grade(course.course(), "ps1")
     assert (points(graded, "ada"), points(graded, "bob")) == ({"test_norm": 1}, {"test_norm": 0})
     assert graded.shared == {}
+
+
+@pytest.mark.parametrize("more", ['c.Directrix.packages = ["numpy"]\n', 'c.Sandbox.engine = "jupyter"\n'])
+def test_a_withheld_module_beside_the_notebook_or_of_pythons_own_is_not_the_learners(tmp_path, more):
+    """It is not handed out, and a learner who has it all the same cannot read it; a file of data of that name stays."""
+    cell = courses.nbgrader_cell
+    load = f"def total():\n    {BEGIN}\n    return int(open('answers.txt').read())\n    {END}"
+    text = courses.as_notebook(
+        cell("mean", f"def mean(xs):\n    {BEGIN}\n    return sum(xs) / len(xs)\n    {END}\n\n{load}", solution=True),
+        cell("test_mean", "import answers, statistics\nassert mean([1, 2]) == answers.mean([1, 2]) == statistics.mean([1, 2])\n"
+             "assert total() == 5", grade=True, locked=True, points=1),
+    )  # fmt: skip
+    folder = tmp_path / "beside"
+    (folder / "source/ps1").mkdir(parents=True)
+    (folder / "source/ps1/one.ipynb").write_text(text)
+    answers = "def mean(xs): return sum(xs) / len(xs)"
+    (folder / "source/ps1/answers.py").write_text(answers)
+    (folder / "source/ps1/answers.txt").write_text("5")
+    (folder / "nbgrader_config.py").write_text('c = get_config()\nc.Sandbox.withhold = ["answers", "statistics"]\n' + more)
+    released = authoring.release(folder, "ps1")
+    assert sorted(path.name for path in released.iterdir()) == ["answers.txt", "one.ipynb"]
+    course, total = courses.Classroom(folder, "ps1"), "\ndef total(): return int(open('answers.txt').read())"
+    course.hand_in("ada", {"one": {"mean": answers + total}})
+    course.hand_in("bob", {"one": {"mean": "from answers import mean" + total}}, files={"answers.py": answers.encode()})
+    course.hand_in("cas", {"one": {"mean": "from statistics import mean" + total}})
+    course.hand_in("dee", {"one": {"mean": "exec(open('answers.py').read())" + total}})
+    graded = fleet.grade(course.course(), "ps1")
+    assert {student.student: student.score for student in graded.students} == {"ada": 1, "bob": 0, "cas": 0, "dee": 0}
 
 
 def test_nbgraders_own_command_gives_the_same_marks(course, bridge_line, tmp_path):

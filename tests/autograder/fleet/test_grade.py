@@ -206,8 +206,12 @@ def test_a_file_where_others_need_a_folder_gives_way(ordinary):
     assert (done / "mine").read_bytes() == b"x"
 
 
-def test_a_long_id_in_another_script_is_graded_once(ordinary):
-    student = "\u65e5\u672c" * 40  # 240 bytes, a folder's name; quoted they are too many for a file's
+@pytest.mark.parametrize(
+    "student",
+    ["\u65e5\u672c" * 40, "Bob O'Neil", "--help", "=1+1"],  # 240 bytes are a folder's name; quoted, too many for a file's
+    ids=["long", "apostrophe", "option", "formula"],
+)
+def test_an_odd_id_is_graded_once(ordinary, student):
     ordinary.hand_in(student, {"one": RIGHT, "two": ADD})
     assert fleet.grade(ordinary.course(), "ps1").student(student).status == "graded"
     assert fleet.grade(ordinary.course(), "ps1").student(student).status == "unchanged"
