@@ -1,8 +1,7 @@
 # %% [markdown]
 # # When two formulas are one surface
 #
-# **You send out the drawing of a tube. What comes back is another file: other numbers, another form, and not one of yours among
-# them. Is it still your tube?**
+# **You send out the drawing of a tube. The file that comes back is in another form, with other numbers. Is it still your tube?**
 #
 # This chapter pulls a stocking over a leg, fools a grid of eighty-one samples, finds out where sixteen are enough and a
 # thousand are not, and ends with two rims that nobody can tell apart and a tube between them that has a waist.
@@ -46,7 +45,7 @@ fine = np.linspace(0, 1, 97)
 # 2. one pushed a circle along a line,
 # 3. one turned a line about the axis,
 # 4. one joined two circles by straight lines,
-# 5. one needed a file that holds splines only, and made a NURBS patch.
+# 5. one needed a file that holds splines only, and made a NURBS patch: 18 points, 18 weights.
 #
 # All five are right: $x^2 + y^2 = 4$ everywhere, and $z$ runs from 0 to 5. Ask each of them for the point at $u = 1/4$,
 # $w = 1/2$. How many *different* points do you get?
@@ -136,10 +135,7 @@ def factor(along_u, along_w):
 # Two things can be read off this number. Its *size* says how much more of the surface a small piece of the square has to cover.
 # Its *sign* says on which side the normal stands; below 0, the stocking is inside out.
 #
-# Here are six changes. Which of them turn the stocking inside out?
-
-# %%
-inside_out = None  # for example "u backwards, and both backwards"
+# Here are six changes:
 
 # %%
 changes = {
@@ -159,6 +155,12 @@ def rates(change, u, w, h=1 / 64):
     return by_u, by_w
 
 
+# %% [markdown]
+# Which of them turn the stocking inside out?
+
+# %%
+inside_out = None  # for example "u backwards, and both backwards"
+
 # %%
 with once_written():
     flipped = []
@@ -167,9 +169,10 @@ with once_written():
         place = change(0.25, 0.625)  # where the old formula is evaluated
         S_u, S_w = tube.derivative(*place, 1, 0), tube.derivative(*place, 0, 1)
         new = np.cross(a * S_u + b * S_w, c * S_u + d * S_w)
-        holds(f"{name}: the factor is {factor(*by):4.1f}", new, factor(*by) * np.cross(S_u, S_w))
-        flipped += [name] if factor(*by) < 0 else []
-    reveal(inside_out, " and ".join(flipped) + ": those with a factor below 0")
+        old = np.cross(S_u, S_w)
+        holds(f"{name}: the factor is {factor(*by):4.1f}", new, factor(*by) * old)
+        flipped += [name] if new @ old < 0 else []
+    reveal(inside_out, " and ".join(flipped))
 
 # %% [markdown]
 # Both backwards is two times inside out, and so it is right side out again.
@@ -347,7 +350,7 @@ sail = dx.BezierPatch([
 
 def fake(u, w):
     """The sail with your bumps on it."""
-    lift = bump(np.asarray(u, float), np.asarray(w, float))
+    lift = np.asarray(bump(np.asarray(u, float), np.asarray(w, float)))
     return sail(u, w) + lift[..., None] * [0, 0, 1]
 
 
