@@ -682,7 +682,7 @@ except dx.ConversionError as refused:
     print("refused:", refused)
 
 # %% [markdown]
-# A waist of some millionths, and yet no tube any more, and nobody has made an error: each of two exact circles was handed on in
+# A waist of thirty millionths, and yet no tube any more, and nobody has made an error: each of two exact circles was handed on in
 # good faith. That is why the library refuses here and says why, where it could have answered with *nearly*.
 #
 # ## The answer
