@@ -64,10 +64,14 @@ class Cluster:
         self._digests: dict[str, str] = {}  # of what was sent, by student
         self._again: deque[Task] = deque()  # each by itself: one of them may be what ended its workers
         self._ready: list[tuple[Task, Landed]] = []
-        with self._scheduler_gone():
-            self._forget_the_dead()
-            client.register_plugin(Grading(self.job), name=self.job.name)
-            self._size = max(1, min(BATCH, count // (2 * max(1, self._threads()))))
+        try:
+            with self._scheduler_gone():
+                self._forget_the_dead()
+                client.register_plugin(Grading(self.job), name=self.job.name)
+                self._size = max(1, min(BATCH, count // (2 * max(1, self._threads()))))
+        except BaseException:  # some workers have taken it
+            self.close()
+            raise
 
     def __enter__(self) -> Cluster:
         return self
@@ -149,7 +153,8 @@ class Cluster:
                     break
             if not tasks:
                 return
-            future = self.client.submit(grade_batch, self.job.name, pickle.dumps(sent, protocol=5), pure=False)
+            batch = pickle.dumps(sent, protocol=5)
+            future = self.client.submit(grade_batch, self.job.name, batch, pure=False, resources={self.job.name: 1})
             self._sent[future] = tasks
 
     def _seeds(self, student: str, submitted: Submission) -> dict[tuple[str, str], bytes]:

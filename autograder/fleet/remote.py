@@ -106,15 +106,26 @@ class Grading(distributed.WorkerPlugin):  # type: ignore[misc]
     def __init__(self, job: Job) -> None:
         self.job, self.name = job, job.name
 
-    def setup(self, worker: Any) -> None:
-        """Start the sandbox. What it raises is told to the grader, and a worker that joins later is turned away."""
+    async def setup(self, worker: Any) -> None:
+        """Start the sandbox. What it raises ends the run that is beginning; of a worker that joins later Dask only logs it.
+
+        So batches ask for a resource of the job's name, which only a worker that came through this has.
+        """
+        self._held = contextlib.ExitStack()
+        try:
+            self._start(worker)
+        except BaseException:
+            self._held.close()
+            raise
+        await worker.set_resources(**{self.name: worker.state.nthreads})
+
+    def _start(self, worker: Any) -> None:
         refuse([worker.address, *listening(worker)])
         if build() != self.job.build:
             raise CourseError(
                 f"the worker {worker.address} has another directrix, Python or numpy than the grader; marks must not depend on "
                 "where a submission is graded: install the same everywhere"
             )
-        self._held = contextlib.ExitStack()
         room = Path(self._held.enter_context(tempfile.TemporaryDirectory(prefix="directrix-")))
         for name, data in self.job.sources.items():
             (room / name).parent.mkdir(parents=True, exist_ok=True)

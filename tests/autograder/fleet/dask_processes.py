@@ -8,6 +8,8 @@ import sys
 import time
 from pathlib import Path
 
+import distributed
+
 SECONDS = 90
 QUIET = {
     "DASK_DISTRIBUTED__DASHBOARD__LINK": "", "DASK_DISTRIBUTED__LOGGING__DISTRIBUTED": "warning", "OPENBLAS_NUM_THREADS": "1",
@@ -16,9 +18,7 @@ QUIET = {
 
 def certificates(folder):
     """A certificate of this cluster's own for all roles, and Dask's configuration that names it, as environment variables."""
-    from distributed import Security
-
-    security = Security.temporary()
+    security = distributed.Security.temporary()
     folder.mkdir()
     (folder / "ca.pem").write_text(security.tls_ca_file)
     (folder / "key.pem").write_text(security.tls_client_key)
@@ -117,3 +117,18 @@ def _children(pid):
 def _command(pid):
     with contextlib.suppress(OSError):
         return Path(f"/proc/{pid}/comm").read_text().strip()
+
+
+IN_THIS_PROCESS = []
+
+
+@contextlib.contextmanager
+def in_this_process(at, workers, /, **options):
+    """A scheduler without certificates; unless there are options, its workers are told nothing of where to listen."""
+    quiet = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
+    scheduler = {"cls": distributed.Scheduler, "options": {"host": at, **quiet}}
+    worker = {"cls": distributed.Worker, "options": {"nthreads": 1, "dashboard": False, **options}}
+    with distributed.SpecCluster(workers=dict.fromkeys(range(workers), worker), scheduler=scheduler, silence_logs=50) as here:
+        IN_THIS_PROCESS.append(here)
+        yield f"tcp://127.0.0.1:{here.scheduler.port}"
+        IN_THIS_PROCESS.pop()
