@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import glob
+import mmap
 import os
 import resource
 import sys
@@ -23,7 +24,6 @@ READABLE = ("/python", "/packages", "/guest", "/usr", "/lib", "/lib64", "/etc", 
 DEVICES = ("/dev/null", "/dev/zero", "/dev/full")
 PROC = tuple(f"/proc/{name}" for name in ("cpuinfo", "meminfo", "self/stat", "self/statm", "self/status"))
 NAMESPACES = system.CLONE_NEWUSER | system.CLONE_NEWPID | system.CLONE_NEWNS | system.CLONE_NEWIPC
-WITHOUT_PROC = 256 * 2**20  # what the interpreter has already, where it cannot be read
 PROCESS_ID_MAX = 400  # the least a kernel takes is about 300; RLIMIT_NPROC is the tighter one
 
 
@@ -120,10 +120,7 @@ def _capture(scratch: str, size: int) -> None:
 
 def limit_resources(limits: dict[str, int | float]) -> None:
     """Resource limits, set inside the user namespace: RLIMIT_NPROC counts per namespace and does not bind the host's root."""
-    already = WITHOUT_PROC
-    with contextlib.suppress(OSError), open("/proc/self/statm", encoding="ascii") as file:
-        already = int(file.read().split()[0]) * resource.getpagesize()
-    _set(resource.RLIMIT_AS, already + int(limits["memory"]))
+    _set(resource.RLIMIT_AS, _address_space() + int(limits["memory"]))
     _set(resource.RLIMIT_CPU, int(limits["notebook_cpu"]) + 10)  # the grader ends it earlier; this holds if the grader has died
     _set(resource.RLIMIT_NPROC, int(limits["threads"]))
     _set(resource.RLIMIT_FSIZE, int(limits["file"]))
@@ -132,6 +129,26 @@ def limit_resources(limits: dict[str, int | float]) -> None:
     _set(resource.RLIMIT_MSGQUEUE, 0)
     _set(resource.RLIMIT_MEMLOCK, 0)
     _set(resource.RLIMIT_SIGPENDING, 256)
+
+
+def _address_space() -> int:
+    """Bytes that the interpreter has already; where no /proc says so, the least limit under which it may have a page more."""
+    with contextlib.suppress(OSError), open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[0]) * resource.getpagesize()
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    least, most = 0, 2**40 if hard == resource.RLIM_INFINITY else hard
+    while most - least > 2**20:
+        middle = (least + most) // 2
+        try:
+            resource.setrlimit(resource.RLIMIT_AS, (middle, hard))
+            mmap.mmap(-1, resource.getpagesize()).close()
+        except (OSError, MemoryError):
+            least = middle
+        else:
+            most = middle
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+    return most
 
 
 def _set(which: int, value: int) -> None:

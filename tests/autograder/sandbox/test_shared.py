@@ -22,6 +22,18 @@ for number in range(64):
         pass
 print(*[path for path, *_ in found if "work" in path or "tmp" in path or not path.startswith("/scratch/")])
 """
+LARGEST = """
+import mmap
+least, most = 0, 2**32
+while most - least > 2**20:
+    middle = (least + most) // 2
+    try:
+        mmap.mmap(-1, middle).close()
+        least = middle
+    except OSError:
+        most = middle
+print(least)
+"""
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +63,13 @@ def test_what_a_notebook_had_is_gone_after_it(box):
         while int(text(other.run_cell("import os; print(os.statvfs('.').f_bfree)"))) < before + 250:
             assert time.monotonic() < deadline
             time.sleep(0.05)
+
+
+def test_a_notebook_may_take_as_much_memory_as_where_it_has_a_proc(box):
+    """What the interpreter has already, and that is more where more is preloaded, is not taken off what was promised."""
+    limits = Limits(memory=300 * 2**20)
+    with box.open(limits=limits) as session:
+        assert limits.memory - 4 * 2**20 < int(text(session.run_cell(LARGEST))) <= limits.memory + 2**20
 
 
 def test_the_shared_folder_has_room_for_what_all_may_write_at_once(monkeypatch):
