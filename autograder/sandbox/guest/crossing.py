@@ -9,13 +9,13 @@ A test cell that runs apart from the learner's code calls that code across a soc
     "a" numeric array, its dtype                  "s" numpy scalar       "t" array of text or of times
     "x" a builtin type, by name                   "f" function of the side that writes
     "m" function of the side that reads           "e" an exception
+
+Whatever can be called and is no class crosses as a function.
 """
 
 from __future__ import annotations
 
 import builtins
-import functools
-import types
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -29,10 +29,6 @@ INSIDE = ["__code__", "__closure__", "__defaults__", "__kwdefaults__", "__global
 WIRE_DEPTH = 3 * DEPTH + 8  # each container takes up to three tuples of the wire
 MESSAGE = 2000  # characters kept of an error's message
 CONTAINERS: dict[str, type] = {"list": list, "tuple": tuple, "set": set, "frozenset": frozenset}
-FUNCTIONS = (
-    types.FunctionType, types.LambdaType, types.MethodType, types.BuiltinFunctionType, types.BuiltinMethodType,
-    types.MethodWrapperType, functools.partial, np.ufunc,
-)  # fmt: skip
 TYPES = {name: value for name, value in vars(builtins).items() if isinstance(value, type)}
 EXCEPTIONS = {name: value for name, value in TYPES.items() if issubclass(value, BaseException)}
 SINGLE = {"Ellipsis": ..., "NotImplemented": NotImplemented}
@@ -157,7 +153,7 @@ def _pack_other(value: Any, functions: Functions, depth: int) -> Form:
         return ("x", value.__name__)
     if (number := functions.is_theirs(value)) is not None:
         return ("m", number)
-    if isinstance(value, FUNCTIONS):
+    if callable(value) and not issubclass(type(value), type):  # a function, what lru_cache made of one, a class's own __call__
         return ("f", functions.number(value), _name(value), _doc(value))
     if isinstance(value, BaseException):
         return pack_error(value, functions, depth - 1)

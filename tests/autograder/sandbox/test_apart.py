@@ -175,6 +175,21 @@ def test_a_test_that_fails_in_what_it_handed_over_lets_the_learners_process_go_o
     assert learner.run_cell("1").status == "ok"
 
 
+CALLED = [
+    "from functools import lru_cache\n@lru_cache\ndef f(x): return x if x < 2 else f(x - 1) + f(x - 2)",
+    "import numpy as np\nf = np.vectorize(lambda x: [0, 1, 1, 2, 3, 5][x])",
+    "class F:\n    def __call__(self, x): return [0, 1, 1, 2, 3, 5][x]\nf = F()",
+    "import operator, functools\nf = functools.partial(operator.getitem, [0, 1, 1, 2, 3, 5])",
+]
+
+
+@pytest.mark.parametrize("solution", CALLED, ids=["lru_cache", "vectorize", "__call__", "partial"])
+def test_whatever_can_be_called_crosses_as_a_function(pair, solution):
+    test = "assert callable(f) and [f(x) for x in range(6)] == [0, 1, 1, 2, 3, 5]\n[int(y) for y in map(f, [4, 5])]"
+    result = ask(pair, solution, test, "f")
+    assert (result.status, shown(result)) == ("ok", "[3, 5]")
+
+
 CATCHALL = "try:\n    {}\nexcept {}:\n    pass\n"
 LOST = [
     ("def f(): return object()", "f()", "the answer is an object of type object, which cannot leave the notebook"),
