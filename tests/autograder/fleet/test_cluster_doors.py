@@ -111,3 +111,26 @@ def test_what_some_workers_were_given_is_taken_back_if_another_one_cannot_be_use
             for held in client.run(lambda dask_worker: set(dask_worker.plugins)).values():
                 assert held <= {"shuffle"}
         IN_THIS_PROCESS[0].sync(worker.close)
+
+
+def test_the_pages_that_dask_shows_to_everybody_name_no_line_that_is_being_judged(ordinary, monkeypatch):
+    """A scheduler's /info/call-stacks/ asks the workers where they are; nobody has to say who asks."""
+    remote = importlib.import_module("autograder.fleet.remote")
+    grade = remote.Grading.grade
+    hand_in(ordinary, 1)
+    stacks = []
+
+    async def call_stack():
+        (worker,) = IN_THIS_PROCESS[0].workers.values()
+        stacks.append(str(worker.get_call_stack()))
+
+    def hidden(self, batch):
+        IN_THIS_PROCESS[0].sync(call_stack)
+        return grade(self, batch)
+
+    monkeypatch.setattr(remote.Grading, "grade", hidden)
+    with in_this_process("tcp://127.0.0.1", 1, host="tcp://127.0.0.1") as address:
+        assert fleet.grade(ordinary.course(), "ps1", scheduler=address).student("s00").status == "graded"
+    (shown,) = stacks
+    assert "in grade_batch" in shown
+    assert "in hidden" not in shown
