@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import math
 import os
 import socket
 import sys
@@ -67,7 +68,7 @@ async def _run(sources: tuple[str | None, ...], limits: dict[str, Any], send: An
     cells = [nbformat.v4.new_code_cell(source or "") for source in sources]  # type: ignore[no-untyped-call]
     notebook = nbformat.v4.new_notebook(cells=cells)  # type: ignore[no-untyped-call]
     client = Client(
-        notebook, kernel_name="python3", timeout=float(limits["wall"]), interrupt_on_timeout=True, allow_errors=True,
+        notebook, kernel_name="python3", timeout=math.ceil(limits["wall"]), interrupt_on_timeout=True, allow_errors=True,
         error_on_timeout={"ename": "TimeLimit", "evalue": words.say("clock", seconds=f"{limits['wall']:g}"), "traceback": []},
         startup_timeout=60, record_timing=False, store_widget_state=False,
     )  # fmt: skip
