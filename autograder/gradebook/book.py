@@ -78,7 +78,9 @@ class Gradebook:
             with self.engine.begin() as connection:
                 yield connection
         except sa.exc.DBAPIError as error:
-            raise CourseError(f"the gradebook cannot be used: {error.orig}; is it nbgrader's, and is the disk full?") from error
+            raise CourseError(
+                f"the gradebook cannot be used: {error.orig}; is it nbgrader's, is the disk full, does another program hold it?"
+            ) from error
 
     def assignment(self, name: str) -> AssignmentRow:
         """An assignment with the instructor's copy of its notebooks.

@@ -1,7 +1,9 @@
 """Writing the gradebook: batches, what is never touched, and what nbgrader's own API reads afterwards."""
 
+import contextlib
 import datetime
 import re
+import sqlite3
 import threading
 
 import pytest
@@ -193,6 +195,16 @@ def test_two_writers_wait_for_each_other(book, ordinary):
         thread.join()
     assert failures == []
     assert ordinary.sql("select count(*) from submitted_assignment") == [(30,)]
+
+
+def test_who_holds_the_gradebook_for_too_long_is_asked_for(book, ordinary, monkeypatch):
+    monkeypatch.setattr("autograder.gradebook.engine.BUSY_SECONDS", 0.05)
+    row = book.assignment("ps1")
+    with contextlib.closing(sqlite3.connect(ordinary.folder / "gradebook.db", isolation_level=None)) as other:
+        other.execute("begin exclusive")
+        mine = Gradebook(f"sqlite:///{ordinary.folder / 'gradebook.db'}")
+        with mine, pytest.raises(CourseError, match=r"locked; .* does another program hold it"):
+            mine.write(row, [Record("ada", None, MARKS)])
 
 
 @pytest.mark.parametrize(("name", "says"), [("PS1", "Did you mean ps1?"), ("ps1/", "Did you mean ps1?"), ("ps2", "Release it")])
