@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import select
 import socket
 import stat
 import subprocess
@@ -86,8 +87,15 @@ class Sandbox:
 
     @property
     def alive(self) -> bool:
-        """Whether the zygote runs, as far as the process that made this sandbox knows."""
-        return self._keeper.is_alive()
+        """Whether the zygote runs, as far as the process that made this sandbox knows.
+
+        Who waits for its end may be told late on a busy machine; its socket is closed before anybody can have met a failure.
+        """
+        if not self._keeper.is_alive():
+            return False
+        end = select.poll()
+        end.register(self._control, 0)  # only of its being closed
+        return not end.poll(0)
 
     def open(
         self,

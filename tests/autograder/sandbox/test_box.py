@@ -119,6 +119,18 @@ def test_the_death_of_the_zygote_is_not_the_learners():
             box.open()
 
 
+def test_a_sandbox_is_known_to_be_gone_though_nobody_was_told_of_its_end(monkeypatch):
+    """What failed with it is graded again in another; on a busy machine the failure is known before the process has ended."""
+    with Sandbox(SMALL) as box:
+        assert box.alive
+        with monkeypatch.context() as patch:
+            patch.setattr(box._keeper, "is_alive", lambda: True)
+            os.kill(box._process.pid, signal.SIGKILL)
+            with pytest.raises(SandboxError):
+                box.open()
+            assert not box.alive
+
+
 def test_a_process_killed_from_outside_is_not_the_learners(sandbox):
     before = descendants()
     with sandbox.open() as session:
